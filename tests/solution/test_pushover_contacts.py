@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from mbla.arrays import FloatArray
+from mbla.arrays import BoolArray, FloatArray
 from mbla.solution.pushover import way as ways
 from mbla.solution.pushover.place import Place
 from mbla.solution.pushover.renewal import renewed
@@ -33,8 +34,8 @@ def test_two_bodies_press_on_each_other_as_before(seed: int, tmp_path: Path, mon
     """A wall and a block that slide: new points of a pair have the force and moment of those before."""
     found = list[tuple[Place, Place]]()
 
-    def watched(place: Place, is_over: object) -> Place:
-        new = renewed(place, is_over)  # type: ignore[arg-type]
+    def watched(place: Place, is_over: Callable[[BoolArray], bool]) -> Place:
+        new = renewed(place, is_over)
         if new.joints is not place.joints and place.state is not None:
             found.append((place, new))
         return new

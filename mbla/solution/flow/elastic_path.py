@@ -25,7 +25,7 @@ from mbla.solution.flow.peak_step import PeakStep, centred, with_openings
 from mbla.solution.flow.settings import PathSettings
 from mbla.solution.flow.unit_of_displacement import Measure, mean_live_load
 from mbla.solution.law.brittle import let_go, share_until_break, without
-from mbla.solution.law.elastic_joints import ElasticJoints, Memory, StepState
+from mbla.solution.law.elastic_joints import ElasticJoints, Memory, StepState, smoothed_margin
 from mbla.solution.law.joint_equations import JointStep, residual_of
 from mbla.solution.law.joint_step import direction_of, length_of
 
@@ -127,8 +127,7 @@ class _Path:
         """Normal forces at rest, smoothed as the first step is: (N − N̄) N = σ k_N h, (n_points,)."""
         joints, limits = self.joints, self.joints.program.limits
         trial, product = self.memory.normal + limits.tension, self.sigma * joints.normal * self.h
-        root = np.sqrt(trial**2 + 4.0 * product)
-        pressed = np.where(trial > 0.0, 0.5 * (trial + root), 2.0 * product / (root + np.abs(trial))) - limits.tension
+        pressed = smoothed_margin(trial, product) - limits.tension
         middle = 0.5 * (self.gravity.state.normal + limits.compression)[joints.crushable]
         pressed[joints.crushable] = np.minimum(pressed[joints.crushable], middle)
         return np.asarray(pressed)

@@ -274,3 +274,9 @@ def within(vectors: FloatArray, limit: FloatArray, share: FloatArray | float = 1
     """Vectors, (components, n), cut to a share of a limit, (n,), where they are longer."""
     size, most = lengths(vectors), share * limit
     return np.asarray(vectors * np.divide(most, size, out=np.ones_like(size), where=size > most))
+
+
+def smoothed_margin(above: FloatArray, product: FloatArray) -> FloatArray:
+    """The margin m > 0 of smoothed joints, (m − a) m = product, for the one a that they have without products, (n,)."""
+    root = np.sqrt(above * above + 4.0 * product)
+    return np.asarray(np.where(above > 0.0, 0.5 * (above + root), 2.0 * product / (root + np.abs(above))))

@@ -51,6 +51,19 @@ def _direction_of(
     longer = min(1.0, reach_of(joints, state, trial))
     if longer > reach:
         direction, reach = trial, longer
+    return _corrected(linear, state, residual, wanted, (direction, reach), sigma)
+
+
+def _corrected(
+    linear: Eliminated,
+    state: StepState,
+    residual: Residual,
+    wanted: Products,
+    begun: tuple[StepState, float],
+    sigma: float,
+) -> tuple[StepState, float]:
+    """A direction and its reach, with outlying products taken back as long as that makes it longer (Gondzio 1996)."""
+    joints, (direction, reach) = linear.step.joints, begun
     for _ in range(CORRECTIONS):
         if reach > LONG:
             break
@@ -94,17 +107,7 @@ def aimed_direction(step: JointStep, state: StepState, residual: Residual) -> tu
             longer = min(1.0, reach_of(joints, state, trial))
             if longer > reach:
                 direction, reach, wanted = trial, longer, plain
-        for _ in range(CORRECTIONS):
-            if reach > LONG:
-                break
-            there = state.plus(direction, min(1.0, reach + BEYOND))
-            wanted = wanted.plus(_outlying(joints, products_of(joints, there), sigma))
-            trial = linear.direction(residual, wanted)
-            longer = min(1.0, reach_of(joints, state, trial))
-            if longer < reach + GAIN:
-                break
-            direction, reach = trial, longer
-        return direction, reach
+        return _corrected(linear, state, residual, wanted, (direction, reach), sigma)
 
 
 def length_of(reach: float) -> float:

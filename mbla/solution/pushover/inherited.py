@@ -11,7 +11,7 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
-from mbla.solution.law.elastic_joints import StepState, within
+from mbla.solution.law.elastic_joints import StepState, smoothed_margin, within
 from mbla.solution.pushover.moved_joints import History, JointsAt, MovedJoints
 from mbla.solution.pushover.place import Place
 
@@ -81,9 +81,8 @@ def _state(
     """
     tension = at.joints.program.limits.tension
     above = history.values[0] - at.joints.normal * joints.length * at.offsets[0] + tension
-    root = np.sqrt(above * above + 4.0 * soft)
-    margin = np.where(above > 0.0, 0.5 * (above + root), 2.0 * soft / (root + np.abs(above)))
-    normal = np.where((stands | starts) & (forces[0] > 0.0), forces[0], margin - tension)
+    by_law = smoothed_margin(above, soft) - tension
+    normal = np.where((stands | starts) & (forces[0] > 0.0), forces[0], by_law)
     shear = within(forces[1:], at.joints.limit(normal), np.where(stands, STAYS, WITHIN))
     none = np.zeros_like(normal)
     return StepState(

@@ -312,10 +312,8 @@ class MovedJoints:
         """Joints of the numbered pattern."""
         numbered = self._pattern[0]
         program = replace(self.reduced, equilibrium_matrix=sp.csr_array(numbered.T))
-        joints = ElasticJoints.of(
-            program, self.shares, self.ratio, program.limits.dilatancy_by(self.structure.flow_rule)
-        )
-        return joints
+        dilatancy = program.limits.dilatancy_by(self.structure.flow_rule)
+        return ElasticJoints.of(program, self.shares, self.ratio, dilatancy)
 
     def _matrix(self, data: FloatArray) -> Stiffness:
         """Pattern of K with A of a pose: its entries where those of the numbered pattern are."""

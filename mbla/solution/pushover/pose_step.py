@@ -137,17 +137,18 @@ class PoseStep:
         step = self._from(at, u, done)
         force, overlap = self._force(at), self._force(at) / self.joints.length
         sigma = force * overlap / kappa
-        fresh = on_central_path(step, sigma, self.factor)
-        wide = OVERLAP * force * max(overlap, WIDE * self._moved(at))
-        starts = [(fresh, False), (on_central_path(step, max(sigma, wide), self.factor), True)]
+        found = None
         if before is not None:
-            starts = [(gone_on(step, before, share, sigma), False), *starts[:1]][: 1 + anew]
-        for state, aimed in starts:
-            found = self._to(step, state, sigma, aimed=aimed)
-            if found is not None:
-                state, directions = found
-                return Smoothed(self.joints.there(self.joints.after(pose, state.u)), state, u + state.u, directions)
-        return None
+            found = self._to(step, gone_on(step, before, share, sigma), sigma, aimed=False)
+        if found is None and (before is None or anew):
+            found = self._to(step, on_central_path(step, sigma, self.factor), sigma, aimed=False)
+        if found is None and before is None:
+            wide = OVERLAP * force * max(overlap, WIDE * self._moved(at))
+            found = self._to(step, on_central_path(step, max(sigma, wide), self.factor), sigma, aimed=True)
+        if found is None:
+            return None
+        state, directions = found
+        return Smoothed(self.joints.there(self.joints.after(pose, state.u)), state, u + state.u, directions)
 
     def solved(self, near: Smoothed | None = None) -> Found | None:
         """The best by the law as it is, from a smoothed step or from the beginning; None where there is none."""

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from mbla.solution.flow.peak_step import with_openings
-from mbla.solution.law.elastic_joints import StepState, lengths
+from mbla.solution.law.elastic_joints import StepState, lengths, smoothed_margin
 from mbla.solution.law.joint_equations import JointStep
 
 
@@ -33,10 +33,7 @@ def on_central_path(step: JointStep, sigma: float, factor: float) -> StepState:
     """State without motion that fulfils the smoothed law of a step."""
     joints, memory, limits = step.joints, step.memory, step.joints.program.limits
     k_n, k_t = joints.normal * step.length, joints.shear * step.length
-    above = memory.normal + limits.tension
-    root = np.sqrt(above * above + 4.0 * sigma * k_n)
-    margin = np.where(above > 0.0, 0.5 * (above + root), 2.0 * sigma * k_n / (root + np.abs(above)))
-    normal = margin - limits.tension
+    normal = smoothed_margin(memory.normal + limits.tension, sigma * k_n) - limits.tension
     crushable = joints.crushable
     middle = 0.5 * (limits.compression - limits.tension)[crushable]
     normal[crushable] = np.minimum(normal[crushable], np.maximum(middle, 0.95 * limits.compression[crushable]))

@@ -129,7 +129,7 @@ class Way:
                     work, place = work / SHORTER**TRIES, replace(place, state=None)
                     self.kappa = max(self.kappa / SOFT, SOFTEST)
                 if tries == TRIES * LEVELS:
-                    tries, before = 0, place
+                    tries = 0
                     jumped = self._jumped(place, work)
                     if isinstance(jumped, Place):
                         place, again = jumped, 0
@@ -137,7 +137,7 @@ class Way:
                         yield jumped or CurveEnd.STUCK
                         return
                     else:
-                        work, again = OTHERS[again] * before.work, again + 1
+                        work, again = OTHERS[again] * place.work, again + 1
                 continue
             after = place_after(step, found, place)
             if self._breaks(place, after) and work > AT_BREAK * place.work:
