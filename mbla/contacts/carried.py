@@ -112,6 +112,31 @@ class CarriedPoints:
         return np.asarray(np.einsum("nji,nj->ni", self._rotations(pose, own), places - self.centres(pose, own)))
 
 
+def _on_faces(
+    contacts: Contacts, found: MovedContacts, host: BoolArray, normals: FloatArray, origins: FloatArray
+) -> Placed:
+    """Points on the face of their slave, with the normal of the face of their host and the distance from it.
+
+    host : (n_points,) whether b is it; normals, origins : (n_points, 2, 3) of both faces, any of grounds
+    """
+    of_point, frames = contacts.interface_of_point, contacts.frames
+    ground = found.faces[of_point, 0] < 0  # has the normal of the contact, at the gap that was found
+    along, every = frames[:, 0], np.arange(len(host))
+    slave_side, host_side = np.where(host, 0, 1), np.where(host, 1, 0)
+    own, origin = normals[every, slave_side], origins[every, slave_side]
+    way = np.einsum("ni,ni->n", origin - contacts.points, own) / np.einsum("ni,ni->n", along, own)
+    points = contacts.points + way[:, None] * along
+    normal = np.where(host[:, None], -1.0, 1.0) * normals[every, host_side]
+    normal = np.where(ground[:, None], along, normal)
+    distance = np.einsum("ni,ni->n", points - origins[every, host_side], normal) * np.where(host, -1.0, 1.0)
+    gaps = np.where(ground, found.gaps, distance - found.ignored[of_point])
+    first = frames[:, 1] - np.einsum("ni,ni->n", frames[:, 1], normal)[:, None] * normal
+    first /= np.linalg.norm(first, axis=1)[:, None]
+    offsets = np.zeros_like(points)
+    offsets[:, 0] = gaps
+    return Placed(points, np.stack([normal, first, np.cross(normal, first)], axis=1), offsets)
+
+
 @dataclass(frozen=True)
 class Touching:
     """Contacts of moved blocks, their points carried along, and what became of those before.
@@ -132,39 +157,24 @@ class Touching:
     overlap: float
 
     @staticmethod
-    def found(
-        centroids: FloatArray,
-        sizes: FloatArray,
-        normals: FloatArray,
-        corners: FloatArray,
-        found: MovedContacts,
-        pose: Pose,
-        *,
-        dilates: bool,
-    ) -> Touching:
-        """New points: those of the body whose corner they are, on a face of the other.
+    def found(centroids: FloatArray, sizes: FloatArray, corners: FloatArray, found: MovedContacts, pose: Pose) -> Touching:
+        """New points: those of the body whose corner they are, on the face of the other, whose normal they have.
 
         centroids, sizes : of the bodies that move, as built; of these the contacts are
-        normals : (n_facets + 1, 3) there
         corners : (n_points, 2) m, distance from the nearest corner of both faces
-        dilates : whether joints have opened by their slip: their points are then half of it from each face
         """
         contacts, of_point = found.contacts, found.contacts.interface_of_point
-        bodies, frames = contacts.bodies[of_point], contacts.frames
-        on_ground = found.faces[:, 0] < 0
-        first, second = (np.einsum("ni,ni->n", contacts.normals, normals[found.faces[:, side]]) for side in (0, 1))
+        bodies, faces = contacts.bodies[of_point], found.faces
+        on_ground = faces[:, 0] < 0
+        normals, origins = found.facets.normals[faces], found.facets.origins[faces]  # of grounds any, not used
+        first, second = (np.einsum("ni,ni->n", contacts.normals, normals[:, side]) for side in (0, 1))
         of_first, of_second = first > 1.0 - ALIGNED, (second < -1.0 + ALIGNED) & ~on_ground
         smaller = np.append(sizes, np.full(int(bodies.max(initial=0)) + 1, np.inf))[bodies].min(axis=1)
         nearer = corners[:, 0] < corners[:, 1] - SAME_CORNER * smaller  # a corner of a
         host = np.where(
             (of_first != of_second)[of_point], (of_second & ~of_first)[of_point], nearer & ~on_ground[of_point]
         )
-        offsets = np.zeros((len(bodies), 3))
-        offsets[:, 0] = found.gaps
-        half = np.where(host, -0.5, 0.5) * (
-            found.gaps if dilates else 0.0
-        )  # from between both faces to that of the slave
-        placed = Placed(contacts.points + half[:, None] * frames[:, 0], frames, offsets)
+        placed = _on_faces(contacts, found, host, normals[of_point], origins[of_point])
         points = CarriedPoints.at_pose(centroids, bodies, host, placed, pose)
         new = np.full(len(bodies), -1)
         return Touching(contacts, found.faces, points, smaller, new, found.overlap)

@@ -43,8 +43,9 @@ REACH = 0.05
 (:data:`MOVED` of :mod:`mbla.solution.pushover.way`), and what overlaps more are the far sides of blocks
 whose near ones touch."""
 
-NARROW = 1e-6
-"""Width of a common surface, over block size, below which it is rounding: facets that share an edge alone."""
+NARROW, EDGE = 1e-6, 1e-3
+"""Width of a common surface, over block size, below which it is rounding, facets that share an edge alone, and below
+which facets that are not in contact as built are none: beside a joint that presses they share what overlaps there."""
 
 
 @dataclass(frozen=True)
@@ -52,12 +53,16 @@ class MovedContacts:
     """Contacts, and the gap of each contact point, (n_points,) m: negative where rounding or a step let blocks overlap.
 
     faces   : (n_interfaces, 2) facets, numbered as the blocks have them; −1 for ground
+    facets  : there
+    ignored : (n_interfaces,) m, gap as built that counts as none
     overlap : greatest, over the size of the smaller block
     """
 
     contacts: Contacts
     gaps: FloatArray
     faces: IntArray
+    facets: Facets
+    ignored: FloatArray
     overlap: float
 
 
@@ -76,7 +81,7 @@ class MovedSearch:
         self._corners_of_facets = shapely.extract_unique_points(self.facets.polygons)
         self._edges = self._joined = np.zeros(0, dtype=np.int64)
         self._reach = max(REACH, 2.0 * section.depth_allowed)
-        overlays, parts = self._near(model, self.facets, 0.0)
+        overlays, parts = self._near(model, self.facets, 0.0, NARROW)
         least, greatest = _extreme_gaps(overlays, parts)
         touches = (greatest <= section.tolerance) & (least >= -section.depth_allowed)
         apart = (~touches & (least < section.tolerance)) | (widths(parts) < section.tolerance)
@@ -93,7 +98,7 @@ class MovedSearch:
         """
         model = moved_model(self.model, pose)
         facets = self._facets(pose)
-        overlays, parts = self._near(model, facets, opened)
+        overlays, parts = self._near(model, facets, opened, EDGE)
         if fallen is not None and fallen.any():
             loose = np.append(fallen, np.zeros(len(model.grounds), dtype=bool))
             stands = np.asarray(~np.any(loose[overlays.bodies], axis=1))
@@ -113,7 +118,8 @@ class MovedSearch:
             offsets = np.einsum("ka,kai->ki", places, overlays.frames[rows, 1:])
             return np.asarray(overlays.origins[rows] + size[rows, None] * offsets)
 
-        gaps = gap_at(overlays, of_point, found.points) * size[of_point] - self._gaps_as_built(overlays)[of_point]
+        ignored = self._gaps_as_built(overlays)
+        gaps = gap_at(overlays, of_point, found.points) * size[of_point] - ignored[of_point]
         contacts = Contacts(
             bodies=overlays.bodies,
             normals=overlays.frames[:, 0],
@@ -131,7 +137,7 @@ class MovedSearch:
             solid_of_block=self.contacts.solid_of_block,
         )
         overlap = max(-float((gaps / size[of_point]).min(initial=0.0)), 0.0)
-        return MovedContacts(contacts, gaps, overlays.facets, overlap)
+        return MovedContacts(contacts, gaps, overlays.facets, facets, ignored, overlap)
 
     def to_corners(self, found: MovedContacts, pose: Pose) -> FloatArray:
         """Distance of contact points from corners of the facets of both bodies, (n_points, 2) m; inf of grounds."""
@@ -148,13 +154,15 @@ class MovedSearch:
             distances[row, side] = shapely.distance(self._corners_of_facets[facet], shapely.points(flat))
         return distances
 
-    def _near(self, model: Model, facets: Facets, opened: float) -> tuple[Overlays, Polygons]:
-        """Common surfaces within reach."""
+    def _near(self, model: Model, facets: Facets, opened: float, narrow: float) -> tuple[Overlays, Polygons]:
+        """Common surfaces within reach, those of facets that are not in contact as built wider than some share."""
         overlays, shapes = self._between(model, facets, opened)
         parts, row = connected_parts(shapes)
         overlays = overlays.take(row)
-        least = _extreme_gaps(overlays, parts)[0]
-        near = (widths(parts) > NARROW) & (least > -self._reach) & (least < self._reach + opened)
+        least, wide = _extreme_gaps(overlays, parts)[0], widths(parts)
+        built = np.isin(self._pair(overlays.bodies, overlays.facets), self._joined)
+        near = (wide > np.where(built, NARROW, narrow)) & (built | (least > -wide))
+        near &= (least > -self._reach) & (least < self._reach + opened)
         near &= ~both_fixed(model, overlays.bodies) & ~np.isin(
             self._pair(overlays.bodies, overlays.facets), self._edges
         )

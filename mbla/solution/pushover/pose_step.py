@@ -20,6 +20,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.model.pose import paths_of
+from mbla.solution.flow.peak_step import centred
 from mbla.solution.law.elastic_joints import Memory, StepState, lengths, within
 from mbla.solution.law.joint_equations import JointStep, products_of, residual_of
 from mbla.solution.law.joint_step import aimed_direction, direction_of, length_of
@@ -48,7 +49,7 @@ ROUNDS, NEAR = 4, (5e-3, 2e-7)
 """Poses at which ever smaller products are gone through, one from the other, and unbalanced force of the law itself
 from which Newton's method goes on, at the first pose and at the others."""
 
-OVERLAP, WIDE, LATER, LEAST, DIRECTIONS = 0.1, 0.01, 1e-3, 1e-13, 25
+OVERLAP, WIDE, INSIDE, LATER, LEAST, DIRECTIONS = 0.1, 0.1, 0.9, 1e-3, 1e-13, 30
 """Products with which a step begins over mean force times elastic overlap, or times a share of the live displacement
 where that is more; at the poses that follow, and at last; directions at most."""
 
@@ -128,27 +129,44 @@ class PoseStep:
 
         twists : (n_solids, 6) that are expected
         before : the state of the step before, of which this one is a share; None where there is none that leads on
-        anew   : whether the step begins at rest besides, where that state does not lead to its end
+        anew   : whether the step begins afresh where that state does not lead to its end
         """
-        u = self.joints.displacements(twists)
-        pose = self.joints.after(self.start.pose, u)
-        at = self.joints.there(pose)
-        done = float(self.start.joints.program.live_load @ u)
-        step = self._from(at, u, done)
-        force, overlap = self._force(at), self._force(at) / self.joints.length
-        sigma = force * overlap / kappa
-        found = None
         if before is not None:
+            u = self.joints.displacements(twists)
+            pose = self.joints.after(self.start.pose, u)
+            at = self.joints.there(pose)
+            step = self._from(at, u, float(self.start.joints.program.live_load @ u))
+            sigma = self._product(at) / kappa
             found = self._to(step, gone_on(step, before, share, sigma), sigma, aimed=False)
-        if found is None and (before is None or anew):
-            found = self._to(step, on_central_path(step, sigma, self.factor), sigma, aimed=False)
-        if found is None and before is None:
-            wide = OVERLAP * force * max(overlap, WIDE * self._moved(at))
-            found = self._to(step, on_central_path(step, max(sigma, wide), self.factor), sigma, aimed=True)
-        if found is None:
-            return None
-        state, directions = found
-        return Smoothed(self.joints.there(self.joints.after(pose, state.u)), state, u + state.u, directions)
+            if found is not None:
+                state, directions = found
+                return Smoothed(self.joints.there(self.joints.after(pose, state.u)), state, u + state.u, directions)
+        return self._afresh(before, kappa) if before is None or anew else None
+
+    def _afresh(self, before: StepState | None, kappa: float) -> Smoothed | None:
+        """The smoothed step by ever smaller products from the forces before, and again at the pose to which it led."""
+        at, u, state, done, directions = self.start, np.zeros(len(self.joints.reduced.dead_load)), before, 0.0, 0
+        for number in range(ROUNDS):
+            step, sigma, found = self._from(at, u, done), self._product(at) / kappa, None
+            if number and state is not None:
+                found = self._to(step, gone_on(step, state, 0.0, sigma), sigma, aimed=False)
+            if found is None:
+                state = on_central_path(step, sigma, self.factor) if state is None else state
+                state = replace(state, u=np.zeros_like(u))
+                wide = WIDE * self._force(at) * self.joints.structure.size
+                found = self._to(step, centred(step.joints, state, wide, INSIDE), sigma, aimed=True)
+            if found is None:
+                return None
+            state, directions = found[0], directions + found[1]
+            done += float(at.joints.program.live_load @ state.u)
+            at, u = self.joints.there(self.joints.after(at.pose, state.u)), u + state.u
+            if self._size(state.u) < NEARBY:
+                return Smoothed(at, state, u, directions)
+        return None
+
+    def _product(self, at: JointsAt) -> float:
+        """Mean force times elastic overlap."""
+        return self._force(at) ** 2 / self.joints.length
 
     def solved(self, near: Smoothed | None = None) -> Found | None:
         """The best by the law as it is, from a smoothed step or from the beginning; None where there is none."""
@@ -232,13 +250,13 @@ class PoseStep:
             if found is None or found[1] < 1e-4:
                 return None
             state = state.plus(found[0], length_of(found[1]))
-            if not self._size(state.u) < FARTHEST:
+            if not aimed and not self._size(state.u) < FARTHEST:
                 return None
             if not last or found[1] < REACHED:
                 continue
             balance, products = step.joints.unbalanced(state) - step.held * state.u, products_of(step.joints, state)
             if float(np.abs(balance).max()) < LOOSE and float(products.normal.max(initial=0.0)) < EVEN * sigma:
-                return state, number
+                return (state, number) if self._size(state.u) < FARTHEST else None
         return None
 
     def _measured(

@@ -68,6 +68,11 @@ class PushedStructure:
         )
 
     @property
+    def size(self) -> float:
+        """Mean of the bodies that may move, m."""
+        return float(self.solids.model.blocks.sizes[~self.solids.model.fixed].mean())
+
+    @property
     def n_solids(self) -> int:
         """Number of bodies that may move, and of fixed blocks."""
         return len(self.solids.model.blocks)
@@ -105,16 +110,11 @@ class PushedStructure:
         """
         blocks = self.blocks_at(pose)
         found = self.search.at(blocks, fallen[self.solids.label], opened)
-        n_blocks = len(self.model.blocks)
         body = np.concatenate([self.solids.label, self.n_solids + np.arange(len(self.model.grounds))])
         contacts = replace(found.contacts, bodies=body[found.contacts.bodies], solid_of_block=None)
-        facets = self.search.facets
-        normals = np.einsum("fij,fj->fi", blocks.rotation[facets.blocks], facets.normals)
-        normals = np.vstack([normals, np.zeros((1, 3))])  # −1, of grounds
-        assert n_blocks == len(self.solids.label)
         corners = self.search.to_corners(found, blocks)
-        there, found = self.solids.model.blocks, replace(found, contacts=contacts)
-        new = Touching.found(there.centroids, there.sizes, normals, corners, found, pose, dilates=opened > 0.0)
+        there = self.solids.model.blocks
+        new = Touching.found(there.centroids, there.sizes, corners, replace(found, contacts=contacts), pose)
         return new if before is None else before.renewed(new, pose)
 
     def areas_of(self, touching: Touching) -> FloatArray:

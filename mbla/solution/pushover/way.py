@@ -45,12 +45,11 @@ LONGER, LONG, OF_WAY = {1: 2.0, 2: 2.0, 3: 1.4, 4: 1.4}, 1.0, 0.25
 LARGEST = 0.02
 """Greatest motion of a solid over its size in a step, and rotation."""
 
-SMOOTHING, SOFT, SHORTER, TRIES, LEVELS, EASY, EASIER = 50.0, 10.0, 0.5, 6, 3, 3, 1.2
-"""κ, and that of a step after ones that are blocked; a step over one that is blocked, such steps with the state before
-and without it, before the structure jumps; directions of a step after which κ rises, and by how much."""
+SHORTER, TRIES = 0.5, 4
+"""A step over one that is blocked, and such steps in turn with κ as it is, with SOFT, and before the structure jumps."""
 
-SOFTEST = 0.1
-"""Least κ."""
+SMOOTHING, SOFT, EASY, EASIER = 5.0, 0.5, 3, 1.2
+"""κ, and that of steps after ones that are blocked; directions of a step after which κ rises, and by how much."""
 
 WARM = 1
 """Shorter steps from the state before, before they begin at rest besides."""
@@ -58,11 +57,11 @@ WARM = 1
 AT_BREAK = 0.05
 """Step in which a tie breaks over the one before, at most."""
 
-KEPT = 0.9
-"""Load factor after a jump over that before, from which the structure is pushed on: with less it goes on by itself."""
+LOST = 0.1
+"""Load factor that a jump takes at most, over that at which the structure starts to move: with more it goes on by itself."""
 
-OTHERS = (0.7, 0.3, 1.5)
-"""Steps over the last one that was made, tried in turn where a jump comes to nothing either."""
+JUMPS, LESS = 3, 0.2
+"""Jumps in turn that may come to nothing, and the step of one over that of the one before."""
 
 TAKEN = 0.2
 """Weight of falling blocks over that of the control point, or of what moves at first with a support that gives way,
@@ -111,6 +110,7 @@ class Way:
             return
         rows = RowsOfWay(self, self._unit(place), self.first.load_factor)
         work, tries, again = FIRST * rows.unit, 0, 0
+        asked = work
         while True:
             if self.deadline is not None and time.monotonic() > self.deadline:
                 yield CurveEnd.LATE
@@ -119,25 +119,24 @@ class Way:
             if self.is_over(place.joints.fallen):
                 yield self.fall
                 return
+            asked = work if tries == 0 else asked
             step, found = self._stepped(place, work, tries)
             factor = place.factor if found is None else step.joints.full.scaling.load_factor(found.state.factor)
             self.watch(rows.count + 1, factor, found is not None)
             if found is None:
                 tries, work = tries + 1, SHORTER * work
-                self.kappa = max(SHORTER * self.kappa, min(self.kappa, SOFT))
-                if tries % TRIES == 0:
-                    work, place = work / SHORTER**TRIES, replace(place, state=None)
-                    self.kappa = max(self.kappa / SOFT, SOFTEST)
-                if tries == TRIES * LEVELS:
-                    tries = 0
-                    jumped = self._jumped(place, work)
+                if tries == TRIES:
+                    work, self.kappa = asked, SOFT
+                elif tries == 2 * TRIES:
+                    jumped, tries, work, self.kappa = self._jumped(place, asked), 0, asked, SMOOTHING
                     if isinstance(jumped, Place):
                         place, again = jumped, 0
-                    elif again == len(OTHERS) or jumped is not None:
+                    elif again == JUMPS or jumped is not None:
                         yield jumped or CurveEnd.STUCK
                         return
                     else:
-                        work, again = OTHERS[again] * place.work, again + 1
+                        asked, again = LESS * asked, again + 1
+                        work = asked
                 continue
             after = place_after(step, found, place)
             if self._breaks(place, after) and work > AT_BREAK * place.work:
@@ -150,16 +149,16 @@ class Way:
                 return
             work = self._next(place, after, found, work, rows)
             if found.directions <= EASY:
-                self.kappa = min(SMOOTHING, (EASIER if self.kappa > SOFT else 2.0) * self.kappa)
+                self.kappa = min(SMOOTHING, EASIER * self.kappa)
             place = after
 
     def _jumped(self, place: Place, work: float) -> Place | CurveEnd | None:
         """Where the structure rests again, or why it does not; None where that is not found."""
         self.jumps += 1
         jumped = jump(place, work, SMOOTHING, self.is_over)
-        self.spent, self.kappa = self.spent + jumped.spent, SMOOTHING
+        self.spent += jumped.spent
         there = jumped.place
-        lost = there is not None and there.factor < KEPT * place.factor and not self.settles
+        lost = there is not None and place.factor - there.factor > LOST * self.first.load_factor and not self.settles
         return self.fall if lost else there
 
     def _breaks(self, place: Place, after: Place) -> bool:
@@ -236,7 +235,7 @@ class Way:
         joints = place.joints
         step = PoseStep(joints, place.history, place.at, place.factor / joints.full.scaling.live, work)
         share = work / place.work if place.work else 0.0
-        found = step.smoothed(turned_on(place.twists, share), place.state, share, self.kappa, anew=tries % TRIES > WARM)
+        found = step.smoothed(turned_on(place.twists, share), place.state, share, self.kappa, anew=tries % TRIES >= WARM or tries == TRIES)
         self.spent += step.spent
         return step, found
 
