@@ -169,6 +169,7 @@ def case_json(scene: Scene) -> dict[str, Any]:
         "path": as_json(solution.path),
         "path_by_stiffness": as_json(solution.path_by_stiffness),
         "curve": as_json(solution.curve),
+        "curve_stiffness": None if solution.pushed is None else as_json(solution.pushed.stiffness),
         "curve_end": solution.curve_end,
         "curve_end_error": as_json(solution.curve_end_error),
         "curve_last_error": as_json(solution.curve_last_error),

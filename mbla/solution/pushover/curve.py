@@ -145,10 +145,12 @@ def _row_0(model: Model, first: Mechanics) -> RecordedRow:
 
 def _followed(way: Way, rows: list[RecordedRow]) -> CurveEnd:
     """Why the curve ends; ``rows`` gets each row as soon as it is done."""
+    jumps, missed = way.jumps, way.missed
     for found in way.rows():
         if isinstance(found, CurveEnd):
             return found
-        rows.append(_recorded(found))
+        rows.append(replace(_recorded(found), jumps=way.jumps - jumps, unsolved=way.missed - missed))
+        jumps, missed = way.jumps, way.missed
     raise AssertionError("a way says how it ends")
 
 
@@ -266,6 +268,8 @@ def curve_of(
                 tie_work=float(rows.energies[number, 2]),
                 potential=float(rows.energies[number, 3]),
                 new_mechanism=number > 1 and _alike(model, motions[number - 1], motions[number]) < ALIKE,
+                jumps=int(rows.jumps[number]),
+                unsolved=int(rows.unsolved[number]),
                 debris=int(rows.fallen[number].sum()),
                 broken=broken,
             )

@@ -155,11 +155,13 @@ class Way:
 
     def _jumped(self, place: Place, work: float) -> Place | CurveEnd | None:
         """Where the structure rests again, or why it does not; None where that is not found."""
-        self.jumps += 1
         jumped = jump(place, work, SMOOTHING, self.is_over)
         self.spent, self.kappa = self.spent + jumped.spent, SMOOTHING
         there = jumped.place
-        lost = there is not None and there.factor < KEPT * place.factor and not self.settles
+        if there is None:
+            return None
+        lost = there.factor < KEPT * place.factor and not self.settles
+        self.jumps += not lost
         return self.fall if lost else there
 
     def _breaks(self, place: Place, after: Place) -> bool:
