@@ -413,6 +413,7 @@ def full_model(model: Model) -> Model:
     pushover = Pushing(
         0.02,
         np.inf,
+        -0.1,
         1,
         np.array([1]),
         np.array([1.0, 0.0, 0.0]),

@@ -47,6 +47,14 @@ def test_an_end_that_the_rows_show_is_the_only_one(
         assert "rows are missing" in end_failure(case, curve[:shorter], end)
 
 
+def test_the_load_factor_asked_for_is_an_end_that_the_rows_show() -> None:
+    asked = "{step: 0.1, until_load_factor: -0.1}"
+    case, curve = line_of(BLOCK, f"load_cases.push.pushover={asked}").load_case, rows(1.0, 0.3, 0.0, -0.05, -0.1)
+    assert end_shown(case, curve) is CurveEnd.FACTOR_REACHED
+    assert "rows are missing" in end_failure(case, curve[:-1], CurveEnd.FACTOR_REACHED)
+    assert "rows are missing" in end_failure(case, curve[:-2], CurveEnd.NOTHING_LEFT)
+
+
 def test_rows_behind_an_end_are_too_many() -> None:
     case = pushed_case()
     assert "goes on after step 4" in end_failure(case, (*FALLING, *FALLING[:1]), CurveEnd.FALLS)

@@ -135,7 +135,7 @@ def _pushing(name: str, section: LoadCaseSection, dead: _Sum, live: _Sum, site: 
         farthest = max(amounts)
         steps = [each.step * farthest / each.amount for each in supports if each.step is not None and each.amount]
         step, error = (steps or [farthest / STEPS_OF_SETTLEMENT])[0], all(each.error for each in supports)
-        return Pushing(step, farthest, MOST_OF_SETTLEMENT, none, np.full(3, np.nan), error, *levers)
+        return Pushing(step, farthest, 0.0, MOST_OF_SETTLEMENT, none, np.full(3, np.nan), error, *levers)
     if asked is None:
         return None
     if asked.control.on is not None:
@@ -144,7 +144,8 @@ def _pushing(name: str, section: LoadCaseSection, dead: _Sum, live: _Sum, site: 
     given_direction = asked.control.direction
     direction = np.full(3, np.nan) if given_direction is None else unit(np.array(given_direction))
     until = np.inf if asked.until is None else asked.until
-    return None if blocks is None else Pushing(asked.step, until, asked.steps, blocks, direction, asked.error, *levers)
+    ends = until, asked.until_load_factor or 0.0, asked.steps
+    return None if blocks is None else Pushing(asked.step, *ends, blocks, direction, asked.error, *levers)
 
 
 def _judge_live(travelling: AppliedLoad | None, path: KeyPath, live: _Sum, site: LoadSite) -> None:

@@ -42,6 +42,7 @@ def curve_words(model: Model, case: CaseResult) -> str:
         if case.solution.curve_end is CurveEnd.NOTHING_LEFT:
             says += f"nothing at {within(ultimate, end)} {length}"
         else:
+            says += f"nothing at {number(ultimate)} {length}; " if last.load_factor < 0.0 else ""
             says += (
                 f"{load_factor_words(model, case.load_case, last.load_factor)} at {within(last.displacement, end)} "
                 f"{length}"

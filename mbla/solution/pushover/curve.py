@@ -57,7 +57,19 @@ def why_not_pushed(model: Model, case: LoadCase, solution: Solution, solved: boo
         "contact_model: convex": solution.conditions_on_interfaces,
         "the control point does not move as the structure starts to": _rests(model, case, solution),
     }
+    against |= dict.fromkeys(_above_start(case, solution), True)
     return ", ".join(words for words, holds in against.items() if holds)
+
+
+def _above_start(case: LoadCase, solution: Solution) -> Iterator[str]:
+    """That the load factor at which the curve is to end is not below the one that it begins with, in words."""
+    asked = case.pushover
+    if asked is None or case.settlement is not None or solution.mechanics is None:
+        return
+    first = start_of(solution).load_factor
+    if asked.until_load_factor >= first > 0.0:
+        words = f"its until_load_factor {asked.until_load_factor:g} is not below the load factor {first:.6g} at which "
+        yield words + "the structure starts to move: give a lower one"
 
 
 SAME_STATE = 5e-3
@@ -102,7 +114,8 @@ def pushed(
     structure = PushedStructure.of(model, contacts, section, case, settings.analysis.flow_rule)
     control = Control.of(model, case, first.mechanism)
     watch = _watched(log)
-    way = Way(structure, control, first, asked.step, asked.until, asked.steps, settings.deadline, watch=watch)
+    ends = asked.until, asked.until_load_factor, asked.steps
+    way = Way(structure, control, first, asked.step, *ends, settings.deadline, watch=watch)
     done = [_row_0(model, first)]
 
     def with_curve(rows: list[RecordedRow], errors: StepErrors, end: CurveEnd) -> Solution:

@@ -1,7 +1,7 @@
 """Whether a pushover ends as it says: its end held against its rows.
 
-Three ends follow from the rows alone, and rows that show one of these have no other end: a load factor of nothing, the
-displacement asked for, the steps asked for. A curve that was cut off shows none of the three.
+Three ends follow from the rows alone, and rows that show one of these have no other end: the load factor asked for, or
+nothing, the displacement asked for, the steps asked for. A curve that was cut off shows none of the three.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from mbla.solution.pushover.pushed import CurveEnd, CurveRow
 ROUNDING = 2e-6
 """of the displacement asked for and of the load factor at first, within which it is reached, and nothing is left"""
 
-SHOWN = (CurveEnd.NOTHING_LEFT, CurveEnd.REACHED, CurveEnd.STEPS_DONE)
+SHOWN = (CurveEnd.NOTHING_LEFT, CurveEnd.FACTOR_REACHED, CurveEnd.REACHED, CurveEnd.STEPS_DONE)
 """ends that the rows show"""
 
 
@@ -23,8 +23,9 @@ def end_shown(case: LoadCase, curve: Sequence[CurveRow]) -> CurveEnd:
     asked, last = case.pushover, curve[-1]
     if asked is None:
         return CurveEnd.NONE
-    if case.settlement is None and last.load_factor <= ROUNDING * abs(curve[0].load_factor):
-        return CurveEnd.NOTHING_LEFT
+    end = asked.until_load_factor
+    if case.settlement is None and last.load_factor <= end + ROUNDING * abs(curve[0].load_factor):
+        return CurveEnd.FACTOR_REACHED if end else CurveEnd.NOTHING_LEFT
     if last.displacement >= asked.until * (1.0 - 2.0 * ROUNDING):
         return CurveEnd.REACHED
     return CurveEnd.STEPS_DONE if len(curve) > asked.steps else CurveEnd.NONE

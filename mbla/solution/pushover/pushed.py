@@ -14,6 +14,7 @@ class CurveEnd(StrEnum):
     FALLS = "it goes on by itself at that load"
     NOT_CARRIED = "nothing carries it any more"
     REACHED = "the displacement asked for is reached"
+    FACTOR_REACHED = "the load factor has fallen to the one asked for"
     STEPS_DONE = "the steps asked for are done"
     BLOCKED = "something blocks its way"
     STUCK = "no forces or no motion were found for the next step"

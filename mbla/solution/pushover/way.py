@@ -77,6 +77,7 @@ class Way:
     first   : the structure as it starts to move
     step    : m, of the control point
     until   : m, at which it ends
+    until_load_factor : at which it ends as it falls
     steps   : rows at most
     most    : multiple of the greatest motion and rotation of solids in a step
     watch   : told of each step the row that it leads to, the load factor, and whether it is made
@@ -89,6 +90,7 @@ class Way:
     first: Mechanics
     step: float
     until: float
+    until_load_factor: float
     steps: int
     deadline: float | None = None
     most: float = 1.0
@@ -160,7 +162,7 @@ class Way:
         there = jumped.place
         if there is None:
             return None
-        lost = there.factor < KEPT * place.factor and not self.settles
+        lost = there.factor < place.factor - (1.0 - KEPT) * abs(place.factor) and not self.settles
         self.jumps += not lost
         return self.fall if lost else there
 
