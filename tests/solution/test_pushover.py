@@ -62,7 +62,7 @@ ALPHA, RADIUS = math.atan(0.2), math.hypot(0.2, 1.0) / 2
 """Angle of the line from the edge to the centroid of the rocking block against the vertical, and its length, m."""
 
 
-@pytest.mark.parametrize("end", [-0.05, 0.05])
+@pytest.mark.parametrize("end", [-0.05, 0.05, 0.19])
 def test_a_curve_ends_where_the_load_factor_has_fallen_to_the_one_asked_for(end: float) -> None:
     """Below 0 the load holds back the block, which falls by itself: tan(alpha - theta) goes on through 0."""
     push = ("load_cases.push.pushover.error=false", f"load_cases.push.pushover.until_load_factor={end}")

@@ -24,6 +24,9 @@ SUDDEN, NOTHING, BLOCKED = 0.2, 1e-6, 100.0
 """Load factor over the greatest from which it does not fall to its end in one step: the structure falls there; over the
 one at which the structure starts to move, that is nothing; and from which something blocks its way."""
 
+RISEN = 0.99
+"""Load factor over the one at which the structure starts to move, from which it has risen before it falls."""
+
 HIGHER = 1.001
 """Load factor over those of two rows from which there is one between them."""
 
@@ -136,9 +139,11 @@ class RowsOfWay:
         return ends if self._is_at_end(row.load_factor) else None
 
     def _is_at_end(self, factor: float) -> bool:
-        """Whether a load factor has fallen to its end; of a reaction that is no end."""
-        end = self.of.until_load_factor + NOTHING * abs(self.of.first.load_factor)
-        return factor <= end and self.way > 2.0 * self.unit and not self.of.settles
+        """Whether a load factor has fallen to its end, above which it has been; of a reaction that is no end."""
+        asked = self.of.until_load_factor
+        end = asked + NOTHING * abs(self.of.first.load_factor)
+        above = self.highest > min(end, RISEN * self.of.first.load_factor) and self.highest > factor
+        return factor <= end and self.way > 2.0 * self.unit and (asked <= 0.0 or above) and not self.of.settles
 
     def _at(
         self, step: PoseStep, found: Smoothed, place: Place, goal: float | None, factor: float | None = None
