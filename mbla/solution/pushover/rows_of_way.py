@@ -71,7 +71,7 @@ class RowsOfWay:
             self.peak, self.greatest = (step, found, place), after.factor
         self.highest = max(self.highest, after.factor)
         ended, lowest = self._is_at_end(after.factor), way.until_load_factor
-        if ended and place.factor - lowest > SUDDEN * (self.highest - lowest):
+        if ended and place.factor - lowest > SUDDEN * (self.highest - min(lowest, 0.0)):
             return way.fall
         if lowest < 0.0 and after.factor <= 0.0 < place.factor:
             self.zero = step, found, place
