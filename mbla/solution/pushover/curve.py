@@ -265,7 +265,7 @@ def curve_of(
     motions = [np.zeros((len(model.blocks), 6))]
     for number, pose in enumerate(poses):
         if number:
-            motions.append(_motion(poses[number - 1], pose))
+            motions.append(poses[number - 1].motion_to(pose))
         broken = int((~model.ties.of_fill).sum()) - _ties_left(model, rows.points_of(number)) if number else 0
         curve.append(
             CurveRow(
@@ -305,12 +305,6 @@ def _speed(model: Model, control: Control, first: Mechanics) -> float:
 
 def _greatest_speed(first: Mechanics) -> float:
     return float(np.linalg.norm(first.mechanism[:, :3], axis=1).max())
-
-
-def _motion(before: Pose, pose: Pose) -> FloatArray:
-    """Displacements and rotation vectors of blocks from one pose to another, (n_blocks, 6)."""
-    by = Pose(pose.shift - before.shift, pose.rotation @ before.rotation.transpose(0, 2, 1))
-    return np.hstack([by.shift, by.rotation_vectors])
 
 
 def _ties_left(model: Model, points: RowPoints) -> int:

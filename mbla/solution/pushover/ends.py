@@ -6,7 +6,9 @@ nothing, the displacement asked for, the steps asked for. A curve that was cut o
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import math
+from collections.abc import Iterator, Sequence
+from itertools import pairwise
 
 from mbla.model.model import LoadCase
 from mbla.solution.pushover.pushed import CurveEnd, CurveRow
@@ -53,3 +55,28 @@ def _within_rounding(case: LoadCase, row: CurveRow) -> bool:
     short = asked is not None and row.displacement < asked.until
     near = asked is not None and row.displacement >= asked.until * (1.0 - 2.0 * ROUNDING)
     return (near and short) or row.load_factor == 0.0
+
+
+ON_STEP = 1e-3
+"""of the step asked for, within which a row is at a multiple of it"""
+
+
+def gaps(case: LoadCase, curve: Sequence[CurveRow]) -> Iterator[tuple[CurveRow, str]]:
+    """Rows before which a multiple of the step asked for has no row, and what the file says of it; "" for nothing.
+
+    That the structure jumps there, that a row was not found, or that a tie has broken.
+    """
+    asked = case.pushover
+    if asked is None:
+        return
+    farthest = max(curve[0].displacement, 0.0)
+    for before, row in pairwise(curve):
+        passed = math.floor(row.displacement / asked.step - ON_STEP) - math.floor(farthest / asked.step + ON_STEP)
+        if passed > 0:
+            says = {
+                "it jumps there": row.jumps,
+                "none was found there": row.unsolved,
+                "a tie breaks there": row.broken != before.broken,
+            }
+            yield row, " and ".join(words for words, holds in says.items() if holds)
+        farthest = max(farthest, row.displacement)

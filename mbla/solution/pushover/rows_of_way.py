@@ -20,6 +20,9 @@ if TYPE_CHECKING:
 AT_END, SEARCHES, FURTHER = 1e-6, 12, 1.5
 """Where a row is: distance from it over what it is, steps made to find it, and share of a step that they go at most."""
 
+MISSED = 1e-4
+"""Distance of a row from where it is to be, over the step asked for, from which it is another one."""
+
 SUDDEN, NOTHING, BLOCKED = 0.2, 1e-6, 100.0
 """Load factor over the greatest from which it does not fall to its end in one step: the structure falls there; over the
 one at which the structure starts to move, that is nothing; and from which something blocks its way."""
@@ -79,8 +82,11 @@ class RowsOfWay:
         begun = way.displacement(place.pose)
         for goal in [] if broken.any() else self._goals(begun, moved, ended=ended):
             row = self._at(step, found, place, goal)
-            if row is not None and goal is not None and self._is_at_end(row.load_factor):
-                row = self._at(step, found, place, None)
+            if row is not None and goal is not None:
+                if self._is_at_end(row.load_factor):
+                    row = self._at(step, found, place, None)
+                elif abs(way.displacement(row.pose) - goal) > MISSED * way.step:
+                    way.missed += 1  # it stands for the one that is not found
             if row is None:
                 way.missed += 1
                 continue
