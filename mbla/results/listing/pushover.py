@@ -9,7 +9,7 @@ import numpy as np
 
 from mbla.arrays import evenly
 from mbla.model.model import Model
-from mbla.results.listing.text import MOST_ROWS, counted, long_table, number, sentence, small, within
+from mbla.results.listing.text import MOST_ROWS, counted, full_sentence, long_table, number, sentence, small, within
 from mbla.results.listing.verdict_words import load_factor_words
 from mbla.results.outcome import curve_residual, ultimate_displacement
 from mbla.results.results import CaseResult
@@ -65,6 +65,12 @@ def curve_words(model: Model, case: CaseResult) -> str:
     return f"{says}. {curve_verdict(case, length)}{stiff}"
 
 
+def no_curve_words(case: CaseResult) -> str:
+    """Why there is no pushover although one is asked for; empty where there is, or none is."""
+    said = (remark for remark in case.solution.remarks if remark.identifier == "pushover-not-done")
+    return next((full_sentence(remark.words) for remark in said), "")
+
+
 def jumps_words(curve: Sequence[CurveRow], length: str) -> str:
     """How often the structure jumps and where first, and steps that were not found, to go on a sentence."""
     jumps, unsolved, says = sum(row.jumps for row in curve), sum(row.unsolved for row in curve), ""
@@ -102,7 +108,7 @@ def curve_verdict(case: CaseResult, length: str) -> str:
         overlap = max(row.overlap for row in case.solution.curve)
         says = f"Verified: every step meets equilibrium and the joint law to {worst:.1g}"
         says += f", blocks overlap by {overlap:.1g} {length} at most"
-        missing = abs(energy_missing(case.solution.curve))
+        missing = abs(energy_missing(case.solution.curve, _small_energy(case)))
         return (
             f"{says}." if missing < NOTABLE_MISS else f"{says}; {missing:.2g} of the energy is lost where blocks drop."
         )
@@ -126,7 +132,7 @@ def curve_lines(model: Model, case: CaseResult) -> list[str]:
             *(number(value) for value in (row.displacement, row.reaction if settles else row.load_factor)),
             *(small(value) for value in (row.error * unit, row.residual if row.step else np.nan)),
             *(f"{value + 0.0:.4g}" for value in (row.live_work, row.friction + row.tie_work, row.potential)),
-            small(energy_missing(curve[: row.step + 1]) if row.step else np.nan),
+            small(energy_missing(curve[: row.step + 1], _small_energy(case)) if row.step else np.nan),
             "jump" if row.jumps else "new" if row.new_mechanism else "",
         ]
         for row in shown
@@ -148,8 +154,17 @@ def curve_lines(model: Model, case: CaseResult) -> list[str]:
     return ["", *(line for words in says for line in sentence(words)), *long_table(head, rows, len(curve))[1:]]
 
 
-def energy_missing(curve: Sequence[CurveRow]) -> float:
-    """Live work that neither friction, ties nor the dead load has taken, over the largest of these."""
+SMALL_ENERGY = 1e-6
+"""share of the dead load times the displacement, below which energies are rounding"""
+
+
+def _small_energy(case: CaseResult) -> float:
+    dead = float(np.abs(case.load_case.dead_load[:, :3]).sum())
+    return SMALL_ENERGY * dead * abs(case.solution.curve[-1].displacement)
+
+
+def energy_missing(curve: Sequence[CurveRow], least: float = 0.0) -> float:
+    """Live work that neither friction, ties nor the dead load has taken, over the largest of these, or ``least``."""
     last = curve[-1]
-    size = max(abs(last.live_work), last.friction, last.tie_work, abs(last.potential), 1e-300)
+    size = max(abs(last.live_work), last.friction, last.tie_work, abs(last.potential), least, 1e-300)
     return (last.live_work - last.friction - last.tie_work - last.potential) / size

@@ -79,5 +79,5 @@ def pushover_claims(case: CaseResult) -> Iterator[str]:
         first = int(np.argmax(rows.fallen.any(axis=1)))
         says = f"{fallen}, the first before step {first}"
         yield f"blocks that fall without the rest are not verified; the file says: {says}"
-    if (lost := energy_lost(rows)) > NOTABLE:
+    if (lost := energy_lost(load_case, rows)) > NOTABLE:
         yield f"that {lost:.2g} of the energy of the pushover is lost where blocks drop is not verified"

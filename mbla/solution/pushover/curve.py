@@ -46,6 +46,10 @@ ALIKE = 0.9
 """Cosine between the motions to two rows below which they are two mechanisms."""
 
 
+RESTS = "the control point does not move as the structure starts to: leave control out, or name blocks that move"
+"""Why a curve has no displacement."""
+
+
 def why_not_pushed(model: Model, case: LoadCase, solution: Solution, solved: bool) -> str:
     """What keeps a pushover from being done, in words; empty where nothing does."""
     crush = any(np.isfinite(law.compressive_strength) for law in model.joints.values())
@@ -55,7 +59,7 @@ def why_not_pushed(model: Model, case: LoadCase, solution: Solution, solved: boo
         "joints can crush": crush,
         "flow_rule: livesley": solution.flow_rule == "livesley",
         "contact_model: convex": solution.conditions_on_interfaces,
-        "the control point does not move as the structure starts to": _rests(model, case, solution),
+        RESTS: _rests(model, case, solution),
     }
     against |= dict.fromkeys(_above_start(case, solution), True)
     return ", ".join(words for words, holds in against.items() if holds)

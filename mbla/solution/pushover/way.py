@@ -135,7 +135,7 @@ class Way:
                     jumped = self._jumped(place, work)
                     if isinstance(jumped, Place):
                         place, again = jumped, 0
-                    elif again == len(OTHERS) or jumped is not None:
+                    elif again == len(OTHERS) or jumped is not None or not place.work:
                         yield jumped or CurveEnd.STUCK
                         return
                     else:
@@ -227,13 +227,15 @@ class Way:
         return masses
 
     def _unit(self, place: Place) -> float:
-        """Live work of elastic joints, at a tenth of the dead load."""
+        """Live work of elastic joints, at a tenth of the dead load; with less, where nothing holds what moves."""
         at, length = place.at.joints, place.joints.length
         joints = replace(at, normal=at.normal * length, shear=at.shear * length)
         program = joints.program
         motion = elastic_motion(joints, np.ones(program.n_points, dtype=np.bool_))
         dead, live = (float(np.abs(load).sum()) for load in (program.dead_load, program.live_load))
-        return abs(float(program.live_load @ motion)) * UNIT * (dead or live) / live
+        motion *= UNIT * (dead or live) / live
+        far = greatest_motion(place.joints, place.joints.twists(motion))
+        return abs(float(program.live_load @ motion)) * min(1.0, LARGEST / max(far, 1e-300))
 
     def _stepped(self, place: Place, work: float, tries: int) -> tuple[PoseStep, Smoothed | None]:
         """A smoothed step of a live work from a place, as the one before led there."""

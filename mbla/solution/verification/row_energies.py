@@ -57,10 +57,14 @@ def room_of(case: LoadCase, rows: PushedRows) -> float:
     return ROOM * size + STORES * _stored(rows)
 
 
-def energy_lost(rows: PushedRows) -> float:
-    """Live work that neither friction, ties nor the dead load has taken at the last row, over the greatest of these."""
+def energy_lost(case: LoadCase, rows: PushedRows) -> float:
+    """Live work that neither friction, ties nor the dead load has taken at the last row, over the greatest of these.
+
+    0 where it is no more than energies may be off.
+    """
     live, friction, ties, potential = rows.energies[-1]
-    return float(live - friction - ties - potential) / max(float(np.abs(rows.energies[-1]).max()), 1e-300)
+    lost = float(live - friction - ties - potential)
+    return lost / float(np.abs(rows.energies[-1]).max()) if lost > room_of(case, rows) else 0.0
 
 
 def _works(case: LoadCase, rows: PushedRows) -> FloatArray:

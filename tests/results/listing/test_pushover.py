@@ -7,7 +7,7 @@ from dataclasses import replace
 import pytest
 
 from mbla.model import Model
-from mbla.results.listing.pushover import curve_lines, curve_words
+from mbla.results.listing.pushover import curve_lines, curve_words, no_curve_words
 from mbla.results.results import CaseResult
 from tests.line import BLOCK, HEAD, case_of
 
@@ -100,3 +100,10 @@ def test_each_row_has_its_balance_of_energy(rocking: tuple[Model, CaseResult]) -
     left = [float(line[:end].split()[-1]) for line in lines if line.split()[:1] in (["1"], ["2"])]
     assert len(left) == 2
     assert max(map(abs, left)) < 1e-3
+
+
+def test_why_there_is_no_pushover_stands_in_the_summary() -> None:
+    model, case = case_of(BLOCK, PUSHED, "load_cases.push.pushover.control={direction: [0, 1, 0]}")
+    assert curve_words(model, case) == ""
+    words = "There is no pushover: the control point does not move as the structure starts to: leave control out"
+    assert no_curve_words(case).startswith(words)
