@@ -118,6 +118,17 @@ def test_what_the_rows_do_not_show(change: Change, says: str, rocks: Results, tm
     assert says in said_of(tmp_path, forged(rocks, change))
 
 
+def test_points_of_another_joint_law_of_the_deck(tmp_path: Path) -> None:
+    """A law of more friction, with which the block would stick at the same place at a greater load."""
+    results = run_of(tmp_path, *ROCKS, "joints.rough={friction: 2}")
+
+    def change(rows: PushedRows) -> PushedRows:
+        return replace(rows, points=replace(rows.points, laws=np.ones_like(rows.points.laws)))
+
+    assert said_of(tmp_path, forged(results, lambda rows: rows)) == ""
+    assert "step 1 of the pushover has contact points with a joint law" in said_of(tmp_path, forged(results, change))
+
+
 def test_friction_that_loads_do_not_pay_for(slides: Results, tmp_path: Path) -> None:
     assert "the energy that friction and ties take" in said_of(tmp_path, forged(slides, with_energies(1, 1.1)))
 

@@ -93,7 +93,7 @@ def held_against_deck(deck: Deck, model: Model, contacts: Contacts, case: CaseRe
     if not done:
         return found
     if case.load_case.pushover is not None:
-        found.differences += pushover_differences(deck, model, case)
+        found.differences += pushover_differences(deck, model, contacts, case)
         found.of_pushover += [] if found.differences else pushover_claims(case)
     _limits(found, deck, model, contacts, case)
     _associative(found, model, contacts, case)

@@ -10,6 +10,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from mbla.contacts.contacts import Contacts
 from mbla.deck import Deck
 from mbla.model import Model
 from mbla.results.results import CaseResult
@@ -19,12 +20,13 @@ from mbla.solution.pushover.pushed import CurveEnd
 from mbla.solution.pushover.record import PushedRows
 from mbla.solution.solution import Status
 from mbla.solution.verification.row_energies import energy_failure, energy_lost
+from mbla.solution.verification.row_laws import row_of_another_law
 
 NOTABLE = 0.02
 """Energy over the greatest whose loss must have a reason."""
 
 
-def pushover_differences(deck: Deck, model: Model, case: CaseResult) -> Iterator[str]:
+def pushover_differences(deck: Deck, model: Model, contacts: Contacts, case: CaseResult) -> Iterator[str]:
     """Where a pushover is not what its deck and its own rows give, in words.
 
     model : as it may move under the load case
@@ -46,6 +48,8 @@ def pushover_differences(deck: Deck, model: Model, case: CaseResult) -> Iterator
     yield from _rows_missing(case)
     if failure := energy_failure(load_case, solution.pushed):
         yield failure
+    if (row := row_of_another_law(model, contacts, deck.contacts, solution.pushed)) is not None:
+        yield f"step {row} of the pushover has contact points with a joint law that its deck does not give them"
     if _comes_back(solution.pushed):
         yield "blocks that have fallen are part of the structure again further on in the pushover"
 
