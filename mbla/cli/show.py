@@ -28,7 +28,8 @@ def add_verify(commands: Any) -> None:
         "--again",
         action="store_true",
         help="follow each path of elastic joints anew from the deck in the file, by other steps and with joints of "
-        "another stiffness in shear: whether the history in the file is that of the loading (needs the solver)",
+        "another stiffness in shear, and each pushover: whether the history in the file is that of the loading (needs "
+        "the solver, and as long as the run)",
     )
 
 

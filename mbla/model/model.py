@@ -184,7 +184,8 @@ class Objective:
 class Pushing:
     """A pushover: how far and by which steps the control point is pushed.
 
-    step, until : m, of the control point; ``until`` inf: until the load factor is nothing
+    step, until : m, of the control point; ``until`` inf: until the load factor is at its end
+    until_load_factor : to which it falls at the end; 0: until nothing is left of it
     steps       : at most
     blocks      : (m,) whose centre of mass is the control point; none: that of the live load on what moves at first
     direction   : (3,) unit, in which its displacement counts; nan: along the live load on these blocks
@@ -197,6 +198,7 @@ class Pushing:
 
     step: float
     until: float
+    until_load_factor: float
     steps: int
     blocks: IntArray
     direction: FloatArray

@@ -62,6 +62,11 @@ class Pose:
             added_mass_points=centroids + np.einsum("bij,bj->bi", self.rotation, mass_arms),
         )
 
+    def motion_to(self, there: Pose) -> FloatArray:
+        """Displacements and rotation vectors of blocks from here to another pose, (n_blocks, 6)."""
+        by = Pose(there.shift - self.shift, there.rotation @ self.rotation.transpose(0, 2, 1))
+        return np.hstack([by.shift, by.rotation_vectors])
+
     def displacements(self, blocks: Blocks, owners: IntArray, points: FloatArray) -> FloatArray:
         """Of points (n, 3) as built of the blocks ``owners``, (n,): (n, 3)."""
         arms = points - blocks.centroids[owners]

@@ -276,9 +276,12 @@ def ultimate_displacement(case: CaseResult, sure: bool = True) -> float:
     curve = case.solution.curve
     if sure and not curve_residual(case) <= APPROXIMATE_RESIDUAL:
         return math.nan
-    if len(curve) > 1 and case.solution.curve_end in (CurveEnd.FALLS, CurveEnd.NOT_CARRIED):
+    behind = [row.step for row in curve[1:] if row.load_factor <= 0.0]
+    if behind and case.load_case.settlement is None:
+        curve = curve[: behind[0] + 1]
+    elif len(curve) > 1 and case.solution.curve_end in (CurveEnd.FALLS, CurveEnd.NOT_CARRIED):
         return curve[-1].displacement
-    if len(curve) < 2 or case.solution.curve_end is not CurveEnd.NOTHING_LEFT:
+    elif len(curve) < 2 or case.solution.curve_end is not CurveEnd.NOTHING_LEFT:
         return math.nan
     before, last = curve[-2:]
     share = before.load_factor / (before.load_factor - last.load_factor)

@@ -74,6 +74,30 @@ class PathAgain:
 
 
 @dataclass(frozen=True)
+class PushoverAgain:
+    """A pushover that a verification followed anew, beside that of the file.
+
+    case    : name of the load case
+    steps, steps_in_file : of both
+    end     : why the one followed anew ends
+    off, at : greatest difference of load factors, over the greatest of them, and the displacement there, m
+    allowed : the most of it with which they agree
+    others  : what else differs: its end, its energies, its errors, where it jumps, the blocks that fall
+    agrees  : whether the one followed anew confirms the other
+    """
+
+    case: str
+    steps: int
+    steps_in_file: int
+    end: str
+    off: float
+    at: float
+    allowed: float
+    others: tuple[str, ...]
+    agrees: bool
+
+
+@dataclass(frozen=True)
 class Results:
     """A complete run.
 
@@ -87,6 +111,7 @@ class Results:
     not_done   : requested load cases that it did not reach
     unconfirmed : of a verification: what its deck asks for and it lacks, or states, and nothing in it shows; in words
     paths_again : of a verification: paths that it followed anew; None where it was not asked to
+    pushovers_again : of a verification: pushovers that it followed anew, likewise
     """
 
     deck: DeckRecord
@@ -104,6 +129,7 @@ class Results:
     not_done: tuple[str, ...] = ()
     unconfirmed: tuple[str, ...] = ()
     paths_again: tuple[PathAgain, ...] | None = None
+    pushovers_again: tuple[PushoverAgain, ...] | None = None
 
     def case(self, name: str) -> CaseResult:
         """The case of that name; raises KeyError if there is none."""

@@ -34,7 +34,7 @@ from mbla.results.hdf5.layout import Content, Value
 from mbla.results.hdf5.result_file import differences_of_file, read_results_hdf5, write_results_hdf5
 from mbla.results.outcome import WITH_VALUE, least_factor, locked_in, presumes_standing
 from mbla.results.provenance import as_expected, deck_of, notices_of, settings_in_words
-from mbla.results.results import CaseResult, PathAgain, Results
+from mbla.results.results import CaseResult, PathAgain, PushoverAgain, Results
 from mbla.results.verification.asked import Found, at_work, cases_left_out, differences_of_stop, held_against_deck
 from mbla.results.verification.remarks import MADE_LAST, differences_of_remarks, remarks_found_again
 from mbla.solution.glued import with_derived
@@ -55,7 +55,7 @@ from mbla.solution.verification.verify_points import verified_status
 def verify_file(path: Path, *, anew: bool = False) -> tuple[Results, tuple[str, ...]]:
     """Results with checks, status and exit status recomputed, and where they disagree with what the file says.
 
-    anew : whether paths of elastic joints are followed anew, with a solver
+    anew : whether paths of elastic joints and pushovers are followed anew, with a solver
 
     Raises FileError as ``read_results_hdf5`` does.
     """
@@ -64,6 +64,7 @@ def verify_file(path: Path, *, anew: bool = False) -> tuple[Results, tuple[str, 
     again = recomputed(results, deck)
     unconfirmed: tuple[str, ...] = ()
     paths: list[PathAgain] = []
+    pushovers: list[PushoverAgain] = []
     for case in again.cases:
         name, found = case.load_case.name, Found(_unproved(results, case))
         if deck is not None:
@@ -74,8 +75,10 @@ def verify_file(path: Path, *, anew: bool = False) -> tuple[Results, tuple[str, 
             followed = paths_again(deck, results.model.of_case(case.load_case), results.contacts, case)
             held_against_paths(found, results.model, case, followed)
             paths += followed
+            if not at_work(results, case):
+                pushovers += _pushover_anew(deck, results, case, found)
         disagreements += tuple(f"{name}: {text}" for text in found.differences)
-        unconfirmed += tuple(f"{name}: {text}" for text in found.unconfirmed)
+        unconfirmed += tuple(f"{name}: {text}" for text in (*found.unconfirmed, *found.of_pushover))
     disagreements += differences_of_stop(results)
     left_out = cases_left_out(results)
     unconfirmed += left_out if results.complete else ()  # a partial file says that it is one
@@ -84,8 +87,20 @@ def verify_file(path: Path, *, anew: bool = False) -> tuple[Results, tuple[str, 
     proved = results.complete and not unconfirmed and not any(presumes_standing(case) for case in again.cases)
     if (disagreements or not proved) and code in (0, 5):
         code = 4
-    seen = tuple(paths) if anew else None
-    return replace(again, exit_code=code, unconfirmed=unconfirmed, paths_again=seen), disagreements
+    seen, pushed = (tuple(paths), tuple(pushovers)) if anew else (None, None)
+    again = replace(again, paths_again=seen, pushovers_again=pushed)
+    return replace(again, exit_code=code, unconfirmed=unconfirmed), disagreements
+
+
+def _pushover_anew(deck: Deck, results: Results, case: CaseResult, found: Found) -> list[PushoverAgain]:
+    """The pushover of a recomputed case followed anew, where there is one; what it shows is added to what was found."""
+    from mbla.results.verification.pushover_again import held_against_pushover, pushover_again  # late: it needs solvers
+
+    again = pushover_again(deck, results.model.of_case(case.load_case), results.contacts, case)
+    if again is None:
+        return []
+    held_against_pushover(found, results.model, case, again)
+    return [again]
 
 
 def _held_against(deck: Deck, results: Results, case: CaseResult, known: Found) -> Found:
@@ -96,7 +111,8 @@ def _held_against(deck: Deck, results: Results, case: CaseResult, known: Found) 
     again = remarks_found_again(deck, model, results.contacts, case)
     again = again if done else tuple(remark for remark in again if remark.identifier not in MADE_LAST)
     remarks = differences_of_remarks(case, again)
-    return Found([*known.differences, *found.differences, *remarks], [*known.unconfirmed, *found.unconfirmed])
+    differences = [*known.differences, *found.differences, *remarks]
+    return Found(differences, [*known.unconfirmed, *found.unconfirmed], found.of_pushover)
 
 
 def recomputed(results: Results, deck: Deck | None) -> Results:

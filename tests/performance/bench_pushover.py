@@ -64,7 +64,15 @@ def measured(text: str) -> dict[str, str | float] | None:
     first, asked = start_of(solution), case.pushover
     started = time.process_time()
     structure = PushedStructure.of(model, contacts, deck.contacts, case, settings.analysis.flow_rule)
-    way = Way(structure, Control.of(model, case, first.mechanism), first, asked.step, asked.until, asked.steps)
+    way = Way(
+        structure,
+        Control.of(model, case, first.mechanism),
+        first,
+        asked.step,
+        asked.until,
+        asked.until_load_factor,
+        asked.steps,
+    )
     every = list(way.rows())
     rows = [row for row in every if isinstance(row, Row)]
     return {

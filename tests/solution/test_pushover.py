@@ -58,6 +58,36 @@ def test_a_block_rocks_by_its_closed_form_until_it_falls() -> None:
     assert abs(energy_missing(solution.curve)) < 1e-3
 
 
+ALPHA, RADIUS = math.atan(0.2), math.hypot(0.2, 1.0) / 2
+"""Angle of the line from the edge to the centroid of the rocking block against the vertical, and its length, m."""
+
+
+@pytest.mark.parametrize("end", [-0.05, 0.05, 0.19])
+def test_a_curve_ends_where_the_load_factor_has_fallen_to_the_one_asked_for(end: float) -> None:
+    """Below 0 the load holds back the block, which falls by itself: tan(alpha - theta) goes on through 0."""
+    push = ("load_cases.push.pushover.error=false", f"load_cases.push.pushover.until_load_factor={end}")
+    solution = pushover_of(ROCKING, *push)
+    moved, factors = columns(solution.curve)
+    assert solution.curve_end is CurveEnd.FACTOR_REACHED
+    assert factors[-1] == pytest.approx(end, rel=1e-5)
+    assert factors == pytest.approx(np.tan(np.arcsin(np.sin(ALPHA) - moved / RADIUS)), abs=1e-5)
+
+
+def test_a_curve_that_goes_on_behind_it_has_a_row_where_nothing_is_left() -> None:
+    push = ("load_cases.push.pushover={step: 0.03, error: false}", "load_cases.push.pushover.until_load_factor=-0.03")
+    curve = pushover_of(ROCKING, *push).curve
+    (nothing,) = [row for row in curve if abs(row.load_factor) < 1e-7]
+    assert nothing.displacement == pytest.approx(0.1, rel=1e-5)
+    assert [row.step for row in curve] == list(range(6))
+
+
+def test_a_curve_does_not_end_above_the_load_factor_that_it_begins_with() -> None:
+    solution = pushover_of(ROCKING, "load_cases.push.pushover.until_load_factor=0.3")
+    assert not solution.curve
+    words = "its until_load_factor 0.3 is not below the load factor 0.2 at which the structure starts to move"
+    assert words in solution.remarks[-1].words
+
+
 @pytest.mark.every(3)
 @pytest.mark.parametrize("load", ["force", "pressure", "mass"])
 def test_forces_act_where_they_act_on_the_block(load: str) -> None:

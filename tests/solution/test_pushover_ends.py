@@ -11,7 +11,7 @@ from mbla.solution.pushover.ends import end_failure, end_shown
 from mbla.solution.pushover.pushed import CurveEnd, CurveRow
 from tests.line import BLOCK, line_of
 
-STEP = CurveRow(0, 0.0, 1.0, float("nan"), float("nan"), 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, False, 0, 0)
+STEP = CurveRow(0, 0.0, 1.0, float("nan"), float("nan"), 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, False, 0, 0, 0, 0)
 
 
 def pushed_case(until: str = "1", steps: int = 50) -> LoadCase:
@@ -45,6 +45,14 @@ def test_an_end_that_the_rows_show_is_the_only_one(
     assert [each for each in CurveEnd if not end_failure(case, curve, each)] == [end]
     for shorter in range(1, len(curve)):
         assert "rows are missing" in end_failure(case, curve[:shorter], end)
+
+
+def test_the_load_factor_asked_for_is_an_end_that_the_rows_show() -> None:
+    asked = "{step: 0.1, until_load_factor: -0.1}"
+    case, curve = line_of(BLOCK, f"load_cases.push.pushover={asked}").load_case, rows(1.0, 0.3, 0.0, -0.05, -0.1)
+    assert end_shown(case, curve) is CurveEnd.FACTOR_REACHED
+    assert "rows are missing" in end_failure(case, curve[:-1], CurveEnd.FACTOR_REACHED)
+    assert "rows are missing" in end_failure(case, curve[:-2], CurveEnd.NOTHING_LEFT)
 
 
 def test_rows_behind_an_end_are_too_many() -> None:

@@ -325,3 +325,19 @@ def test_fill_pushes_on_the_way_it_pushes_as_built() -> None:
         cos, sin = np.cos(turn), np.sin(turn)
         holds = weight * (x * cos - z * sin) - push * (place[0] * sin + place[2] * cos)
         assert row.load_factor == pytest.approx(holds / (weight * (x * sin + z * cos)), rel=2e-4)
+
+
+def test_what_a_support_carries_along_loads_it_all_the_way() -> None:
+    """A block on a table that sinks, with nothing else to hold it: no joint gives, and the reaction is its weight."""
+    blocks = (
+        "blocks:\n  - box: {group: table, material: stone, min: [0, 0, 0], max: [1, 1, 0.2]}\n"
+        "  - box: {material: stone, min: [0.2, 0.2, 0.2], max: [0.7, 0.7, 0.7]}\n"
+    )
+    sinks = "{on: table, direction: [0, 0, -1], amount: 0.1, step: 0.05, error: false}"
+    case = pushed_case(
+        f"{HEAD}joints: {{dry: {{friction: 0.5}}}}\n{blocks}contacts: {{joint: dry}}\nsupports: [{{blocks: table}}]\n"
+        f"load_cases: {{c: {{settlement: {sinks}}}}}\n"
+    )
+    assert case.solution.curve_end is CurveEnd.REACHED
+    reactions = [row.reaction for row in case.solution.curve]
+    assert reactions == pytest.approx([2000 * 9.81 * 0.125] * len(reactions), rel=1e-6)

@@ -73,6 +73,11 @@ class PushoverSection(Section):
     until: PositiveLength | None = Field(
         None, description="displacement at which to end; the one at which the load factor is nothing unless given"
     )
+    until_load_factor: Number | None = Field(
+        None,
+        description="load factor at which to end, as it falls: below 0 the curve goes on behind the displacement at "
+        "which nothing is left, with the load factors that hold back what would fall by itself. 0 unless given",
+    )
     steps: Annotated[int, Integer(ge=1, le=100_000)] = Field(500, description="steps at most")
     error: bool = Field(True, description=STEPS_OF_TWICE_THE_SIZE)
     control: ControlSection = Field(default_factory=ControlSection, description="whose displacement is counted")

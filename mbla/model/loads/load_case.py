@@ -32,6 +32,8 @@ COMPUTABLE = (1e-100, 1e100)
 
 STEPS_OF_SETTLEMENT, MOST_OF_SETTLEMENT = 50, 2000
 """steps of a settlement unless the deck says how long they are, and at most: each is shorter where blocks move far"""
+GIVES = 1e-6
+"""of the mean size of blocks, by which elastic joints of a pushover give: a step is longer"""
 
 
 @dataclass(frozen=True)
@@ -135,16 +137,40 @@ def _pushing(name: str, section: LoadCaseSection, dead: _Sum, live: _Sum, site: 
         farthest = max(amounts)
         steps = [each.step * farthest / each.amount for each in supports if each.step is not None and each.amount]
         step, error = (steps or [farthest / STEPS_OF_SETTLEMENT])[0], all(each.error for each in supports)
-        return Pushing(step, farthest, MOST_OF_SETTLEMENT, none, np.full(3, np.nan), error, *levers)
+        _judge_step(step, _place_of_step(name, section), site)
+        return Pushing(step, farthest, 0.0, MOST_OF_SETTLEMENT, none, np.full(3, np.nan), error, *levers)
     if asked is None:
         return None
+    _judge_step(asked.step, ("load_cases", name, "pushover", "step"), site)
     if asked.control.on is not None:
         path: KeyPath = ("load_cases", name, "pushover", "control", "on")
         blocks = select_blocks(asked.control.on, path, site.roster)
     given_direction = asked.control.direction
     direction = np.full(3, np.nan) if given_direction is None else unit(np.array(given_direction))
     until = np.inf if asked.until is None else asked.until
-    return None if blocks is None else Pushing(asked.step, until, asked.steps, blocks, direction, asked.error, *levers)
+    ends = until, asked.until_load_factor or 0.0, asked.steps
+    return None if blocks is None else Pushing(asked.step, *ends, blocks, direction, asked.error, *levers)
+
+
+def _judge_step(step: float, path: KeyPath, site: LoadSite) -> None:
+    """A step is longer than what elastic joints give."""
+    sizes = site.blocks.sizes[~site.fixed]
+    least = GIVES * float(sizes.mean()) if len(sizes) else 0.0
+    if step <= least and not site.roster.partial:
+        of = "a millionth of the size of blocks, by which joints give"
+        words = f"must be > {least:.2g} {site.units.length}, {of}"
+        if path[-1] != "step":
+            words = f"must be > {STEPS_OF_SETTLEMENT * least:.2g} {site.units.length}: a fiftieth of it is a step, "
+            words += f"more than {of}"
+        site.refuse(Finding("out-of-bounds", words, *path))
+
+
+def _place_of_step(name: str, section: LoadCaseSection) -> KeyPath:
+    """Where the step of a settlement is given, or the amount that it follows from."""
+    supports, path = supports_of(section), ("load_cases", name, "settlement")
+    number = next((row for row, each in enumerate(supports) if each.step is not None), 0)
+    key = "amount" if supports[number].step is None else "step"
+    return (*path, number, key) if isinstance(section.settlement, list) else (*path, key)
 
 
 def _judge_live(travelling: AppliedLoad | None, path: KeyPath, live: _Sum, site: LoadSite) -> None:

@@ -86,6 +86,8 @@ def _pushed(get: dict[str, Any]) -> dict[str, Any]:
         fallen=get["pushed/fallen"],
         energies=np.column_stack([get[f"curve/{name}"] for name in ("live_work", "friction", "tie_work", "potential")]),
         errors=get["curve/error"],
+        jumps=get["curve/jumps"],
+        unsolved=get["curve/unsolved"],
         point_start=get["pushed/point_start"],
         points=points,
         stiffness=get["pushed/stiffness"],

@@ -5,12 +5,39 @@ from __future__ import annotations
 import math
 
 from mbla.model.model import LoadCase, Model
+from mbla.results.listing.text import counted, number
 from mbla.results.listing.verdict_words import LEAST_OFF, load_factor_words
-from mbla.results.results import PathAgain, Results
+from mbla.results.results import PathAgain, PushoverAgain, Results
 
 NOT_CHECKED = (
     "that the history is that of the loading was not checked: mbla verify --again follows paths of elastic joints anew"
 )
+
+NOT_FOLLOWED = "that the rows of a pushover are those of its way was not checked: mbla verify --again follows it anew"
+
+
+def pushovers_words(results: Results) -> tuple[str, ...]:
+    """Sentences on the pushovers that a verification followed anew, or that it did not."""
+    if results.pushovers_again is None:
+        return (NOT_FOLLOWED,) if any(case.solution.pushed is not None for case in results.cases) else ()
+    cases = {case.load_case.name: case.load_case for case in results.cases}
+    return tuple(
+        f"{again.case}: {pushover_words(results.model, cases[again.case], again)}"
+        for again in results.pushovers_again
+        if again.agrees
+    )
+
+
+def pushover_words(model: Model, load_case: LoadCase, again: PushoverAgain) -> str:
+    """What a pushover that was followed anew came to, beside that of the file."""
+    words = f"the pushover followed anew has {counted(again.steps, 'step')} and ends because {again.end}"
+    of = "load factors" if load_case.settlement is None else "reactions"
+    if again.agrees:
+        return f"{words}; {of} of the file are {_percent(again.off)} off"
+    says = [f"{of} of the file are up to {_percent(again.off)} off, at {number(again.at)} {model.units.length}"]
+    says = says if again.off > again.allowed else []
+    says += [f"not as in the file: {', '.join(again.others)}"] if again.others else []
+    return f"{words}; {'; '.join(says)}"
 
 
 def history_words(results: Results) -> tuple[str, ...]:

@@ -30,7 +30,7 @@ from mbla.results.listing.forces import (
     work_lines,
 )
 from mbla.results.listing.geometric_safety import geometric_safety_lines
-from mbla.results.listing.history_words import history_words
+from mbla.results.listing.history_words import history_words, pushovers_words
 from mbla.results.listing.mechanism_words import description_of, mechanism_lines, mechanism_summary
 from mbla.results.listing.model_words import (
     contact_lines,
@@ -155,13 +155,13 @@ def listing(results: Results, *, every_position: bool = False) -> str:
 
 def verification_lines(results: Results, disagreements: Sequence[str]) -> list[str]:
     """What ``mbla verify`` prints: figures recomputed for every case, and where the file says otherwise."""
-    solver = "no solver" if results.paths_again is None else "no solver, but for paths of elastic joints"
+    solver = "no solver" if results.paths_again is None else "no solver, but for paths and pushovers"
     lines = [f"{results.deck.name}: recomputed from the file alone, {solver}"]
     for case in results.cases:
         lines += heading(f"Load case {case.load_case.name}") + figures(results.model, case)
     lines += heading("Summary")
     lines += [line for case in results.cases for line in entry(case.load_case.name, verdict(results.model, case))]
-    lines += [line for text in history_words(results) for line in sentence(text)]
+    lines += [line for text in (*history_words(results), *pushovers_words(results)) for line in sentence(text)]
     lines += sentence(f"not verified, but as the run reported it: {'; '.join(unverified_kinds(results))}")
     unproved = (*unproved_words(results.cases), *remarks_of_run(results.cases))
     lines += [line for text in unproved for line in sentence(text)]

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import pairwise
 
 import numpy as np
 
 from mbla.arrays import evenly
 from mbla.model.model import Model
-from mbla.results.listing.text import MOST_ROWS, counted, long_table, number, sentence, small, within
+from mbla.results.listing.text import MOST_ROWS, counted, full_sentence, long_table, number, sentence, small, within
 from mbla.results.listing.verdict_words import load_factor_words
 from mbla.results.outcome import curve_residual, ultimate_displacement
 from mbla.results.results import CaseResult
@@ -41,6 +42,7 @@ def curve_words(model: Model, case: CaseResult) -> str:
         if case.solution.curve_end is CurveEnd.NOTHING_LEFT:
             says += f"nothing at {within(ultimate, end)} {length}"
         else:
+            says += f"nothing at {number(ultimate)} {length}; " if last.load_factor < 0.0 else ""
             says += (
                 f"{load_factor_words(model, case.load_case, last.load_factor)} at {within(last.displacement, end)} "
                 f"{length}"
@@ -58,7 +60,38 @@ def curve_words(model: Model, case: CaseResult) -> str:
         says += f"; {counted(broken, 'tie')} broken, the first at {number(first)} {length}"
     fallen = curve[-1].debris
     says += f"; {counted(fallen, 'block')} fell before the rest" if fallen else ""
-    return f"{says}. {curve_verdict(case, length)}"
+    says += jumps_words(curve, length)
+    stiff = f" {stiffness_words(model, case)}" if _in_space(case) else ""
+    return f"{says}. {curve_verdict(case, length)}{stiff}"
+
+
+def no_curve_words(case: CaseResult) -> str:
+    """Why there is no pushover although one is asked for; empty where there is, or none is."""
+    said = (remark for remark in case.solution.remarks if remark.identifier == "pushover-not-done")
+    return next((full_sentence(remark.words) for remark in said), "")
+
+
+def jumps_words(curve: Sequence[CurveRow], length: str) -> str:
+    """How often the structure jumps and where first, and steps that were not found, to go on a sentence."""
+    jumps, unsolved, says = sum(row.jumps for row in curve), sum(row.unsolved for row in curve), ""
+    if jumps:
+        first = next(before for before, row in pairwise(curve) if row.jumps)
+        says += f"; {counted(jumps, 'jump')}, the first behind {number(first.displacement)} {length}"
+    return says + (f"; {counted(unsolved, 'step')} between not found" if unsolved else "")
+
+
+def stiffness_words(model: Model, case: CaseResult) -> str:
+    """How stiff the joints of a pushover are; empty without one."""
+    rows, units = case.solution.pushed, model.units
+    if rows is None:
+        return ""
+    across, along = rows.stiffness
+    return f"Its joints are as stiff as {across:.3g} {units.force}/{units.length}3 across and {along:.3g} along."
+
+
+def _in_space(case: CaseResult) -> bool:
+    size = case.solution.size
+    return size is not None and size.dimension == 3
 
 
 def curve_verdict(case: CaseResult, length: str) -> str:
@@ -75,7 +108,7 @@ def curve_verdict(case: CaseResult, length: str) -> str:
         overlap = max(row.overlap for row in case.solution.curve)
         says = f"Verified: every step meets equilibrium and the joint law to {worst:.1g}"
         says += f", blocks overlap by {overlap:.1g} {length} at most"
-        missing = abs(energy_missing(case.solution.curve))
+        missing = abs(energy_missing(case.solution.curve, _small_energy(case)))
         return (
             f"{says}." if missing < NOTABLE_MISS else f"{says}; {missing:.2g} of the energy is lost where blocks drop."
         )
@@ -89,31 +122,49 @@ def curve_lines(model: Model, case: CaseResult) -> list[str]:
     curve, units = case.solution.curve, model.units
     if not curve:
         return []
-    settles, tied = case.load_case.settlement is not None, bool(len(model.ties))
-    shown = [curve[row] for row in evenly(len(curve), MOST_ROWS)]
+    settlement, tied = case.load_case.settlement, bool(len(model.ties))
+    settles, unit = settlement is not None, 1.0 if settlement is None else settlement.unit
+    jumped = [row.step for row in curve if row.jumps][:MOST_ROWS]
+    shown = [curve[row] for row in sorted({*evenly(len(curve), MOST_ROWS), *jumped})]
     rows = [
         [
             str(row.step),
             *(number(value) for value in (row.displacement, row.reaction if settles else row.load_factor)),
-            *(small(value) for value in (row.residual if row.step else np.nan, row.overlap)),
-            *(number(value) for value in (row.live_work, row.friction, row.potential)),
-            *([number(row.tie_work)] if tied else []),
-            "new" if row.new_mechanism else "",
+            *(small(value) for value in (row.error * unit, row.residual if row.step else np.nan)),
+            *(f"{value + 0.0:.4g}" for value in (row.live_work, row.friction + row.tie_work, row.potential)),
+            small(energy_missing(curve[: row.step + 1], _small_energy(case)) if row.step else np.nan),
+            "jump" if row.jumps else "new" if row.new_mechanism else "",
         ]
         for row in shown
     ]
-    head = ["step", f"moved [{units.length}]", f"reaction [{units.force}]" if settles else "load factor", "residual"]
-    head += ["overlap", "live work", "friction", "dead load", *(["ties"] if tied else []), "motion"]
-    says = [curve_words(model, case)]
-    missing = energy_missing(curve)
-    taken = "friction, ties and what" if tied else "friction and what"
-    says.append(f"Live work less {taken} the dead load gained: {missing:.2g} of the live work.")
-    says.append(f"Work and energies in {units.force} {units.length}, overlap of blocks in {units.length}.")
+    head = ["step", f"moved [{units.length}]", f"reaction [{units.force}]" if settles else "load factor"]
+    head += ["error", "residual", "live work", "lost" if tied else "friction", "dead load", "left", "motion"]
+    says = [curve_words(model, case), *([] if _in_space(case) else [stiffness_words(model, case)])]
+    lost = "what is lost, in friction and by ties," if tied else "friction"
+    says.append(
+        f"Work and energies in {units.force} {units.length}; left is the live work less {lost} and what the dead load "
+        "gained, over the greatest of these: what elastic joints store, and what goes where blocks drop."
+    )
+    if any(row.new_mechanism for row in curve):
+        says.append("Behind a step that is marked new the structure has moved in another way than to the one before.")
+    if any(row.jumps for row in curve):
+        says.append(
+            "Before a step that is marked jump no equilibrium is nearby: the structure moves in time to its next rest."
+        )
     return ["", *(line for words in says for line in sentence(words)), *long_table(head, rows, len(curve))[1:]]
 
 
-def energy_missing(curve: Sequence[CurveRow]) -> float:
-    """Live work that neither friction, ties nor the dead load has taken, over the largest of these."""
+SMALL_ENERGY = 1e-6
+"""share of the dead load times the displacement, below which energies are rounding"""
+
+
+def _small_energy(case: CaseResult) -> float:
+    dead = float(np.abs(case.load_case.dead_load[:, :3]).sum())
+    return SMALL_ENERGY * dead * abs(case.solution.curve[-1].displacement)
+
+
+def energy_missing(curve: Sequence[CurveRow], least: float = 0.0) -> float:
+    """Live work that neither friction, ties nor the dead load has taken, over the largest of these, or ``least``."""
     last = curve[-1]
-    size = max(abs(last.live_work), last.friction, last.tie_work, abs(last.potential), 1e-300)
+    size = max(abs(last.live_work), last.friction, last.tie_work, abs(last.potential), least, 1e-300)
     return (last.live_work - last.friction - last.tie_work - last.potential) / size

@@ -11,7 +11,7 @@ from mbla.results.force_range import force_ranges_of
 from mbla.results.listing.answers import answer_columns, range_words, spread_over_positions, status_words, worst_words
 from mbla.results.listing.assessment_words import assessment_words, code_verdict
 from mbla.results.listing.mechanism_words import description_of, mechanism_summary
-from mbla.results.listing.pushover import curve_words
+from mbla.results.listing.pushover import curve_words, no_curve_words
 from mbla.results.listing.text import counted, number, sentence, table
 from mbla.results.listing.verdict_words import bound_words, least_words, reasons, torsion_words, verdict
 from mbla.results.outcome import case_notices, notices_of, result_of
@@ -109,6 +109,6 @@ def _in_words(results: Results, case: CaseResult) -> list[str]:
     lines = sentence(text)
     assessed = assessment_words(model, contacts, case)
     said = (least_words(model, case), torsion_words(model, case), *details, *reasons(case), bound_words(model, case))
-    for words in (*said, curve_words(model, case), assessed):
+    for words in (*said, curve_words(model, case) or no_curve_words(case), assessed):
         lines += sentence(words, DETAIL)
     return lines

@@ -150,6 +150,8 @@ def draw_curve(path: Path, scene: Scene, options: PictureOptions) -> None:
         axes.plot(moved, values, color=BLUE, linewidth=1.8 * page.scale)
         axes.plot(moved[sure], values[sure], **look)
         axes.plot(moved[~sure], values[~sure], markerfacecolor="white", **look)
+        for row in np.flatnonzero([row.jumps for row in curve]).tolist():
+            axes.plot(moved[row - 1 : row + 1], values[row - 1 : row + 1], color=ORANGE, linewidth=1.8 * page.scale)
         for row in np.flatnonzero([row.new_mechanism for row in curve]).tolist():
             axes.axvline(moved[row], color=GHOST, linewidth=0.8 * page.scale, zorder=0)
         axes.set_xlim(left=min(0.0, float(moved.min())))

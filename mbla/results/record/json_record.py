@@ -23,7 +23,7 @@ from mbla.results.force_range import ForceRange, end_bounds, end_value, force_ra
 from mbla.results.hdf5.content import unverified_kinds
 from mbla.results.listing.answers import reaction_json
 from mbla.results.listing.figures import solver_json
-from mbla.results.listing.history_words import NOT_CHECKED, history_words
+from mbla.results.listing.history_words import NOT_CHECKED, NOT_FOLLOWED, history_words, pushovers_words
 from mbla.results.outcome import (
     RESIDUALS,
     associative_of,
@@ -100,9 +100,11 @@ def verification_json(results: Results, disagreements: Sequence[str]) -> dict[st
         "disagreements": list(disagreements),
         "not_confirmed": list(results.unconfirmed),
         "paths_again": as_json(results.paths_again),
+        "pushovers_again": as_json(results.pushovers_again),
         "not_verified": [
             *unverified_kinds(results),
             *((NOT_CHECKED,) if NOT_CHECKED in history_words(results) else ()),
+            *((NOT_FOLLOWED,) if NOT_FOLLOWED in pushovers_words(results) else ()),
             *unproved_words(results.cases),
             *remarks_of_run(results.cases),
         ],
@@ -169,6 +171,7 @@ def case_json(scene: Scene) -> dict[str, Any]:
         "path": as_json(solution.path),
         "path_by_stiffness": as_json(solution.path_by_stiffness),
         "curve": as_json(solution.curve),
+        "curve_stiffness": None if solution.pushed is None else as_json(solution.pushed.stiffness),
         "curve_end": solution.curve_end,
         "curve_end_error": as_json(solution.curve_end_error),
         "curve_last_error": as_json(solution.curve_last_error),

@@ -31,6 +31,7 @@ UNITS: dict[UnitKind, str] = {
     "degree": "degree",
     "radian": "rad",
     "stress": "{force}/{length}2",
+    "bedding": "{force}/{length}3",
     "force": "{force}",
     "moment": "{force} {length}",
     "per_length": "1/{length}",
@@ -67,7 +68,7 @@ UNVERIFIED = {
     "files": "names of files",
     "words": "reasons and remarks in words",
     "course": "how it was solved: scheme, programs, iterations, steps and ends of paths, sizes, reductions",
-    "curve": "of a pushover: errors of its load factors, which blocks fall without the rest, why it ends",
+    "curve": "of a pushover: errors of its load factors, where it jumps, which blocks fall without the rest, its end",
     "searches": "ranges of normal forces",
     "claimed": "that no better answer was found than the status says, without associative flow that it does not fall "
     "before",

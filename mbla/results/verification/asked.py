@@ -17,12 +17,11 @@ from mbla.deck import Deck
 from mbla.model import Model
 from mbla.results.outcome import WITH_VALUE, least_factor, ratio_of
 from mbla.results.results import CaseResult, Results
+from mbla.results.verification.pushover import pushover_claims, pushover_differences
 from mbla.solution.flow.path_record import Stop
 from mbla.solution.flow.settings import RATIOS, ratios_beside, second_ratio
 from mbla.solution.limits.geometric_safety import why_no_geometric_safety
 from mbla.solution.nonassociative.by_stiffness import same
-from mbla.solution.pushover.curve import why_not_pushed
-from mbla.solution.pushover.ends import SHOWN, end_failure
 from mbla.solution.pushover.pushed import CurveEnd
 from mbla.solution.settings import settings_for, solver_settings
 from mbla.solution.solution import Mechanics, Solution, Status
@@ -42,10 +41,12 @@ class Found:
 
     differences : where it is not what its deck and its arrays give
     unconfirmed : what it lacks, or states, and nothing in it shows
+    of_pushover : what it states of a pushover and nothing in it shows, until that is followed anew
     """
 
     differences: list[str] = field(default_factory=list)
     unconfirmed: list[str] = field(default_factory=list)
+    of_pushover: list[str] = field(default_factory=list)
 
 
 def cases_left_out(results: Results) -> tuple[str, ...]:
@@ -91,7 +92,9 @@ def held_against_deck(deck: Deck, model: Model, contacts: Contacts, case: CaseRe
         found.differences.append(f"the load case is {'' if done else 'not '}done, and its pushover ends: {end or '-'}")
     if not done:
         return found
-    _pushover(found, deck, model, case)
+    if case.load_case.pushover is not None:
+        found.differences += pushover_differences(deck, model, contacts, case)
+        found.of_pushover += [] if found.differences else pushover_claims(case)
     _limits(found, deck, model, contacts, case)
     _associative(found, model, contacts, case)
     _history(found, deck, case)
@@ -125,25 +128,6 @@ def _not_asked(deck: Deck, case: CaseResult) -> Iterator[str]:
         "the lock of a level table": (solution.level_lock, load_case.tilt is not None),
     }
     return (what for what, (part, asked) in present.items() if part is not None and not asked)
-
-
-def _pushover(found: Found, deck: Deck, model: Model, case: CaseResult) -> None:
-    solution, load_case = case.solution, case.load_case
-    if load_case.pushover is None:
-        return
-    against = why_not_pushed(model, case.load_case, solution, case.status is Status.SOLVED)
-    if solution.pushed is None:
-        found.differences += [] if against else [lacks("pushover")]
-    elif against:
-        found.differences.append(f"the file has a pushover, which no run makes of this case: {against}")
-    elif failure := end_failure(load_case, solution.curve, solution.curve_end):
-        found.differences.append(failure)
-    elif solution.curve_end is CurveEnd.LATE and deck.analysis.time_limit is None:
-        found.differences.append(f"the deck has no time limit, the file says of its pushover: {solution.curve_end}")
-    elif solution.curve_end not in SHOWN:
-        found.unconfirmed.append(f"why the pushover ends is not verified; the file says: {solution.curve_end}")
-        if load_case.assessment is not None:
-            found.unconfirmed.append("the verdict of the code rests on where the pushover ends, which is not verified")
 
 
 def _limits(found: Found, deck: Deck, model: Model, contacts: Contacts, case: CaseResult) -> None:

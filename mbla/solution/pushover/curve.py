@@ -46,6 +46,10 @@ ALIKE = 0.9
 """Cosine between the motions to two rows below which they are two mechanisms."""
 
 
+RESTS = "the control point does not move as the structure starts to: leave control out, or name blocks that move"
+"""Why a curve has no displacement."""
+
+
 def why_not_pushed(model: Model, case: LoadCase, solution: Solution, solved: bool) -> str:
     """What keeps a pushover from being done, in words; empty where nothing does."""
     crush = any(np.isfinite(law.compressive_strength) for law in model.joints.values())
@@ -55,9 +59,21 @@ def why_not_pushed(model: Model, case: LoadCase, solution: Solution, solved: boo
         "joints can crush": crush,
         "flow_rule: livesley": solution.flow_rule == "livesley",
         "contact_model: convex": solution.conditions_on_interfaces,
-        "the control point does not move as the structure starts to": _rests(model, case, solution),
+        RESTS: _rests(model, case, solution),
     }
+    against |= dict.fromkeys(_above_start(case, solution), True)
     return ", ".join(words for words, holds in against.items() if holds)
+
+
+def _above_start(case: LoadCase, solution: Solution) -> Iterator[str]:
+    """That the load factor at which the curve is to end is not below the one that it begins with, in words."""
+    asked = case.pushover
+    if asked is None or case.settlement is not None or solution.mechanics is None:
+        return
+    first = start_of(solution).load_factor
+    if asked.until_load_factor >= first > 0.0:
+        words = f"its until_load_factor {asked.until_load_factor:g} is not below the load factor {first:.6g} at which "
+        yield words + "the structure starts to move: give a lower one"
 
 
 SAME_STATE = 5e-3
@@ -102,7 +118,8 @@ def pushed(
     structure = PushedStructure.of(model, contacts, section, case, settings.analysis.flow_rule)
     control = Control.of(model, case, first.mechanism)
     watch = _watched(log)
-    way = Way(structure, control, first, asked.step, asked.until, asked.steps, settings.deadline, watch=watch)
+    ends = asked.until, asked.until_load_factor, asked.steps
+    way = Way(structure, control, first, asked.step, *ends, settings.deadline, watch=watch)
     done = [_row_0(model, first)]
 
     def with_curve(rows: list[RecordedRow], errors: StepErrors, end: CurveEnd) -> Solution:
@@ -145,10 +162,12 @@ def _row_0(model: Model, first: Mechanics) -> RecordedRow:
 
 def _followed(way: Way, rows: list[RecordedRow]) -> CurveEnd:
     """Why the curve ends; ``rows`` gets each row as soon as it is done."""
+    jumps, missed = way.jumps, way.missed
     for found in way.rows():
         if isinstance(found, CurveEnd):
             return found
-        rows.append(_recorded(found))
+        rows.append(replace(_recorded(found), jumps=way.jumps - jumps, unsolved=way.missed - missed))
+        jumps, missed = way.jumps, way.missed
     raise AssertionError("a way says how it ends")
 
 
@@ -250,7 +269,7 @@ def curve_of(
     motions = [np.zeros((len(model.blocks), 6))]
     for number, pose in enumerate(poses):
         if number:
-            motions.append(_motion(poses[number - 1], pose))
+            motions.append(poses[number - 1].motion_to(pose))
         broken = int((~model.ties.of_fill).sum()) - _ties_left(model, rows.points_of(number)) if number else 0
         curve.append(
             CurveRow(
@@ -266,6 +285,8 @@ def curve_of(
                 tie_work=float(rows.energies[number, 2]),
                 potential=float(rows.energies[number, 3]),
                 new_mechanism=number > 1 and _alike(model, motions[number - 1], motions[number]) < ALIKE,
+                jumps=int(rows.jumps[number]),
+                unsolved=int(rows.unsolved[number]),
                 debris=int(rows.fallen[number].sum()),
                 broken=broken,
             )
@@ -288,12 +309,6 @@ def _speed(model: Model, control: Control, first: Mechanics) -> float:
 
 def _greatest_speed(first: Mechanics) -> float:
     return float(np.linalg.norm(first.mechanism[:, :3], axis=1).max())
-
-
-def _motion(before: Pose, pose: Pose) -> FloatArray:
-    """Displacements and rotation vectors of blocks from one pose to another, (n_blocks, 6)."""
-    by = Pose(pose.shift - before.shift, pose.rotation @ before.rotation.transpose(0, 2, 1))
-    return np.hstack([by.shift, by.rotation_vectors])
 
 
 def _ties_left(model: Model, points: RowPoints) -> int:

@@ -1,12 +1,14 @@
 """Whether a pushover ends as it says: its end held against its rows.
 
-Three ends follow from the rows alone, and rows that show one of these have no other end: a load factor of nothing, the
-displacement asked for, the steps asked for. A curve that was cut off shows none of the three.
+Three ends follow from the rows alone, and rows that show one of these have no other end: the load factor asked for, or
+nothing, the displacement asked for, the steps asked for. A curve that was cut off shows none of the three.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import math
+from collections.abc import Iterator, Sequence
+from itertools import pairwise
 
 from mbla.model.model import LoadCase
 from mbla.solution.pushover.pushed import CurveEnd, CurveRow
@@ -14,7 +16,7 @@ from mbla.solution.pushover.pushed import CurveEnd, CurveRow
 ROUNDING = 2e-6
 """of the displacement asked for and of the load factor at first, within which it is reached, and nothing is left"""
 
-SHOWN = (CurveEnd.NOTHING_LEFT, CurveEnd.REACHED, CurveEnd.STEPS_DONE)
+SHOWN = (CurveEnd.NOTHING_LEFT, CurveEnd.FACTOR_REACHED, CurveEnd.REACHED, CurveEnd.STEPS_DONE)
 """ends that the rows show"""
 
 
@@ -23,8 +25,9 @@ def end_shown(case: LoadCase, curve: Sequence[CurveRow]) -> CurveEnd:
     asked, last = case.pushover, curve[-1]
     if asked is None:
         return CurveEnd.NONE
-    if case.settlement is None and last.load_factor <= ROUNDING * abs(curve[0].load_factor):
-        return CurveEnd.NOTHING_LEFT
+    end = asked.until_load_factor
+    if case.settlement is None and last.load_factor <= end + ROUNDING * abs(curve[0].load_factor):
+        return CurveEnd.FACTOR_REACHED if end else CurveEnd.NOTHING_LEFT
     if last.displacement >= asked.until * (1.0 - 2.0 * ROUNDING):
         return CurveEnd.REACHED
     return CurveEnd.STEPS_DONE if len(curve) > asked.steps else CurveEnd.NONE
@@ -52,3 +55,28 @@ def _within_rounding(case: LoadCase, row: CurveRow) -> bool:
     short = asked is not None and row.displacement < asked.until
     near = asked is not None and row.displacement >= asked.until * (1.0 - 2.0 * ROUNDING)
     return (near and short) or row.load_factor == 0.0
+
+
+ON_STEP = 1e-3
+"""of the step asked for, within which a row is at a multiple of it"""
+
+
+def gaps(case: LoadCase, curve: Sequence[CurveRow]) -> Iterator[tuple[CurveRow, str]]:
+    """Rows before which a multiple of the step asked for has no row, and what the file says of it; "" for nothing.
+
+    That the structure jumps there, that a row was not found, or that a tie has broken.
+    """
+    asked = case.pushover
+    if asked is None:
+        return
+    farthest = max(curve[0].displacement, 0.0)
+    for before, row in pairwise(curve):
+        passed = math.floor(row.displacement / asked.step - ON_STEP) - math.floor(farthest / asked.step + ON_STEP)
+        if passed > 0:
+            says = {
+                "it jumps there": row.jumps,
+                "none was found there": row.unsolved,
+                "a tie breaks there": row.broken != before.broken,
+            }
+            yield row, " and ".join(words for words, holds in says.items() if holds)
+        farthest = max(farthest, row.displacement)

@@ -23,7 +23,14 @@ SAME_PLACE = 1e-6
 """Difference of displacements over the whole, up to which rows of two curves are at the same place."""
 
 COME_TO_AN_END = frozenset(
-    {CurveEnd.NOTHING_LEFT, CurveEnd.FALLS, CurveEnd.NOT_CARRIED, CurveEnd.REACHED, CurveEnd.BLOCKED}
+    {
+        CurveEnd.NOTHING_LEFT,
+        CurveEnd.FALLS,
+        CurveEnd.NOT_CARRIED,
+        CurveEnd.REACHED,
+        CurveEnd.FACTOR_REACHED,
+        CurveEnd.BLOCKED,
+    }
 )
 """Ends that are those of the structure, or asked for."""
 

@@ -37,6 +37,8 @@ class Energy:
         before, memory = step.start, step.memory(step.start)
         limits = at.joints.program.limits
         begun = np.vstack([np.clip(memory.normal, -limits.tension, limits.compression)[None], memory.shear])
+        if at.joints.dilates:  # the smoothed law holds a joint that slides open, which is none of its force
+            begun[0] = np.where(joints.is_tie, begun[0], end[0])
         moved = at.offsets - before.offsets
         work = -0.5 * (begun + end) * moved
         stiffness = np.vstack([at.joints.normal[None], np.tile(at.joints.shear, (joints.components - 1, 1))])

@@ -14,6 +14,7 @@ class CurveEnd(StrEnum):
     FALLS = "it goes on by itself at that load"
     NOT_CARRIED = "nothing carries it any more"
     REACHED = "the displacement asked for is reached"
+    FACTOR_REACHED = "the load factor has fallen to the one asked for"
     STEPS_DONE = "the steps asked for are done"
     BLOCKED = "something blocks its way"
     STUCK = "no forces or no motion were found for the next step"
@@ -35,6 +36,8 @@ class CurveRow:
     live_work, friction, tie_work, potential : J since row 0: work of the live load, dissipated in sliding and by ties,
                    gained by the dead load
     new_mechanism : whether it has moved there in another way than to the row before
+    jumps        : jumps since the row before: no equilibrium was nearby, and it moved in time to its next rest
+    unsolved     : rows between it and the row before that were not found
     debris       : blocks that have fallen without the rest
     broken       : ties that have broken, or went with debris
     """
@@ -51,5 +54,7 @@ class CurveRow:
     tie_work: float
     potential: float
     new_mechanism: bool
+    jumps: int
+    unsolved: int
     debris: int
     broken: int

@@ -53,6 +53,7 @@ class PushedRows:
     energies     : (n, 4) J since the structure was at rest, as the run went: work of the live load, dissipated in
                    sliding and by ties, gained by the dead load
     errors       : (n,) estimated error of the load factor, nan where it is not known
+    jumps, unsolved : (n,) jumps, and rows that were not found, since the row before
     point_start  : (n + 1,) points of row k are point_start[k]:point_start[k + 1] of ``points``
     stiffness    : (2,) of joints across and along, force per volume
     """
@@ -63,6 +64,8 @@ class PushedRows:
     fallen: BoolArray
     energies: FloatArray
     errors: FloatArray
+    jumps: IntArray
+    unsolved: IntArray
     point_start: IntArray
     points: RowPoints
     stiffness: FloatArray
@@ -88,13 +91,17 @@ class PushedRows:
 
 @dataclass(frozen=True)
 class RecordedRow:
-    """One row to be recorded: load factor, pose of the blocks, those that are debris, energies so far, points."""
+    """One row to be recorded: load factor, pose of the blocks, those that are debris, energies so far, points; jumps,
+    and rows that were not found, since the row before.
+    """
 
     load_factor: float
     pose: Pose
     fallen: BoolArray
     energies: tuple[float, float, float, float]
     points: RowPoints
+    jumps: int = 0
+    unsolved: int = 0
 
 
 def recorded(rows: Sequence[RecordedRow], stiffness: tuple[float, float]) -> PushedRows:
@@ -108,6 +115,8 @@ def recorded(rows: Sequence[RecordedRow], stiffness: tuple[float, float]) -> Pus
         fallen=np.stack([row.fallen for row in rows]),
         energies=np.array([row.energies for row in rows]),
         errors=np.full(len(rows), np.nan),
+        jumps=np.array([row.jumps for row in rows]),
+        unsolved=np.array([row.unsolved for row in rows]),
         point_start=starts(np.array([len(row.points.forces) for row in rows])),
         points=RowPoints(**every),
         stiffness=np.array(stiffness),

@@ -1,6 +1,7 @@
 """Rows of the way of a structure that is pushed: steps that are solved at multiples of the step that is asked for.
 
-Besides, there is one at a peak between them, where nothing is left of the load factor, and where a jump ends.
+Besides, there is one at a peak between them, where nothing is left of the load factor, where it has fallen to the one
+asked for, and where a jump ends.
 """
 
 from __future__ import annotations
@@ -19,9 +20,15 @@ if TYPE_CHECKING:
 AT_END, SEARCHES, FURTHER = 1e-6, 12, 1.5
 """Where a row is: distance from it over what it is, steps made to find it, and share of a step that they go at most."""
 
+MISSED = 1e-4
+"""Distance of a row from where it is to be, over the step asked for, from which it is another one."""
+
 SUDDEN, NOTHING, BLOCKED = 0.2, 1e-6, 100.0
-"""Load factor over the greatest from which it does not fall to nothing in one step: the structure falls there; over the
+"""Load factor over the greatest from which it does not fall to its end in one step: the structure falls there; over the
 one at which the structure starts to move, that is nothing; and from which something blocks its way."""
+
+RISEN = 0.99
+"""Load factor over the one at which the structure starts to move, from which it has risen before it falls."""
 
 HIGHER = 1.001
 """Load factor over those of two rows from which there is one between them."""
@@ -36,6 +43,7 @@ class RowsOfWay:
     target   : displacement of the next
     peak     : the step with the greatest load factor since the last row
     highest  : load factor so far
+    zero     : the step in which it falls below zero, where the curve goes on behind it
     """
 
     of: Way
@@ -47,6 +55,7 @@ class RowsOfWay:
     peak: tuple[PoseStep, Smoothed, Place] | None = None
     greatest: float = 0.0
     highest: float = 0.0
+    zero: tuple[PoseStep, Smoothed, Place] | None = None
 
     def of_step(
         self, step: PoseStep, found: Smoothed, place: Place, after: Place
@@ -64,22 +73,27 @@ class RowsOfWay:
         if after.factor > self.greatest:
             self.peak, self.greatest = (step, found, place), after.factor
         self.highest = max(self.highest, after.factor)
-        nothing = self._is_nothing(after.factor)
-        if nothing and place.factor > SUDDEN * self.highest:
+        ended, lowest = self._is_at_end(after.factor), way.until_load_factor
+        if ended and place.factor - lowest > SUDDEN * (self.highest - min(lowest, 0.0)):
             return way.fall
+        if lowest < 0.0 and after.factor <= 0.0 < place.factor:
+            self.zero = step, found, place
         broken = after.ties.broken(way.structure.model.ties)[after.joints.ties]
         begun = way.displacement(place.pose)
-        for goal in [] if broken.any() else self._goals(begun, moved, nothing=nothing):
+        for goal in [] if broken.any() else self._goals(begun, moved, ended=ended):
             row = self._at(step, found, place, goal)
-            if row is not None and goal is not None and self._is_nothing(row.load_factor):
-                row = self._at(step, found, place, None)
+            if row is not None and goal is not None:
+                if self._is_at_end(row.load_factor):
+                    row = self._at(step, found, place, None)
+                elif abs(way.displacement(row.pose) - goal) > MISSED * way.step:
+                    way.missed += 1  # it stands for the one that is not found
             if row is None:
                 way.missed += 1
                 continue
-            top = self._top(row)
-            if top is not None:
-                self.count += 1
-                yield top
+            for between in (self._top(row), self._zero(row)):
+                if between is not None and self.count < way.steps:
+                    self.count += 1
+                    yield between
             self.peak, self.greatest, self.last = None, row.load_factor, row.load_factor
             if self.count < way.steps:
                 self.count += 1
@@ -89,8 +103,8 @@ class RowsOfWay:
                 return end or CurveEnd.STEPS_DONE
         return None
 
-    def _goals(self, begun: float, moved: float, *, nothing: bool) -> list[float | None]:
-        """Displacements of rows within a step, None where nothing is left of the load factor.
+    def _goals(self, begun: float, moved: float, *, ended: bool) -> list[float | None]:
+        """Displacements of rows within a step, None where the load factor is at its end.
 
         Where a jump has passed some by, the end of the step stands for these.
         """
@@ -103,7 +117,7 @@ class RowsOfWay:
             goals.append(self.target)
             self.target += self.of.step
         goals += [until] if moved >= until * (1.0 - AT_END) else []
-        return goals + ([None] if nothing else [])
+        return goals + ([None] if ended else [])
 
     def _top(self, row: Row) -> Row | None:
         """The row of a peak before a row, where there is one."""
@@ -113,29 +127,46 @@ class RowsOfWay:
         before = top is not None and self.of.displacement(top.pose) < self.of.displacement(row.pose)
         return top if before else None
 
+    def _zero(self, row: Row) -> Row | None:
+        """The row at which nothing is left of the load factor, where one behind it is the next."""
+        if self.zero is None or row.load_factor >= 0.0:
+            return None
+        there, self.zero = self.zero, None
+        if abs(self.last) <= NOTHING * abs(self.of.first.load_factor):
+            return None
+        at = self._at(*there, None, 0.0)
+        before = at is not None and self.of.displacement(at.pose) < self.of.displacement(row.pose)
+        return at if before else None
+
     def _end(self, row: Row) -> CurveEnd | None:
         if self.of.displacement(row.pose) >= self.of.until * (1.0 - 2.0 * AT_END):
             return CurveEnd.REACHED
-        return CurveEnd.NOTHING_LEFT if self._is_nothing(row.load_factor) else None
+        ends = CurveEnd.FACTOR_REACHED if self.of.until_load_factor else CurveEnd.NOTHING_LEFT
+        return ends if self._is_at_end(row.load_factor) else None
 
-    def _is_nothing(self, factor: float) -> bool:
-        """Whether nothing is left of a load factor; of a reaction that is no end."""
-        start = NOTHING * abs(self.of.first.load_factor)
-        return factor <= start and self.way > 2.0 * self.unit and not self.of.settles
+    def _is_at_end(self, factor: float) -> bool:
+        """Whether a load factor has fallen to its end, above which it has been; of a reaction that is no end."""
+        asked = self.of.until_load_factor
+        end = asked + NOTHING * abs(self.of.first.load_factor)
+        above = self.highest > min(end, RISEN * self.of.first.load_factor) and self.highest > factor
+        return factor <= end and self.way > 2.0 * self.unit and (asked <= 0.0 or above) and not self.of.settles
 
-    def _at(self, step: PoseStep, found: Smoothed, place: Place, goal: float | None) -> Row | None:
-        """The row of a part of a step at a displacement of the control point; without one where nothing is left of the
-        load factor. None where no row is found.
+    def _at(
+        self, step: PoseStep, found: Smoothed, place: Place, goal: float | None, factor: float | None = None
+    ) -> Row | None:
+        """The row of a part of a step at a displacement of the control point; without one at a load factor, the one
+        asked for unless given. None where no row is found.
         """
         way, best = self.of, self.of.row(step, found, place)
         if best is None:
             return None
-        size = max(abs(place.factor), 1e-300) if goal is None else goal
+        end = way.until_load_factor if factor is None else factor
+        size = max(abs(place.factor), abs(end), 1e-300) if goal is None else goal
 
         def value(row: Row) -> float:
-            return row.load_factor if goal is None else way.displacement(row.pose) - goal
+            return row.load_factor - end if goal is None else way.displacement(row.pose) - goal
 
-        begun = place.factor if goal is None else way.displacement(place.pose) - goal
+        begun = place.factor - end if goal is None else way.displacement(place.pose) - goal
         low, high = (0.0, begun), (1.0, value(best))
         for _ in range(SEARCHES):
             if abs(value(best)) <= AT_END * size or high[1] == low[1]:

@@ -76,6 +76,7 @@ class Way:
     first   : the structure as it starts to move
     step    : m, of the control point
     until   : m, at which it ends
+    until_load_factor : at which it ends as it falls
     steps   : rows at most
     most    : multiple of the greatest motion and rotation of solids in a step
     watch   : told of each step the row that it leads to, the load factor, and whether it is made
@@ -88,6 +89,7 @@ class Way:
     first: Mechanics
     step: float
     until: float
+    until_load_factor: float
     steps: int
     deadline: float | None = None
     most: float = 1.0
@@ -131,7 +133,7 @@ class Way:
                     jumped, tries, work, self.kappa = self._jumped(place, asked), 0, asked, SMOOTHING
                     if isinstance(jumped, Place):
                         place, again = jumped, 0
-                    elif again == JUMPS or jumped is not None:
+                    elif again == JUMPS or jumped is not None or not asked:
                         yield jumped or CurveEnd.STUCK
                         return
                     else:
@@ -154,11 +156,13 @@ class Way:
 
     def _jumped(self, place: Place, work: float) -> Place | CurveEnd | None:
         """Where the structure rests again, or why it does not; None where that is not found."""
-        self.jumps += 1
         jumped = jump(place, work, SMOOTHING, self.is_over)
         self.spent += jumped.spent
         there = jumped.place
-        lost = there is not None and place.factor - there.factor > LOST * self.first.load_factor and not self.settles
+        if there is None:
+            return None
+        lost = place.factor - there.factor > LOST * abs(self.first.load_factor) and not self.settles
+        self.jumps += not lost
         return self.fall if lost else there
 
     def _breaks(self, place: Place, after: Place) -> bool:
@@ -222,13 +226,15 @@ class Way:
         return masses
 
     def _unit(self, place: Place) -> float:
-        """Live work of elastic joints, at a tenth of the dead load."""
+        """Live work of elastic joints, at a tenth of the dead load; with less, where nothing holds what moves."""
         at, length = place.at.joints, place.joints.length
         joints = replace(at, normal=at.normal * length, shear=at.shear * length)
         program = joints.program
         motion = elastic_motion(joints, np.ones(program.n_points, dtype=np.bool_))
         dead, live = (float(np.abs(load).sum()) for load in (program.dead_load, program.live_load))
-        return abs(float(program.live_load @ motion)) * UNIT * (dead or live) / live
+        motion *= UNIT * (dead or live) / live
+        far = greatest_motion(place.joints, place.joints.twists(motion))
+        return abs(float(program.live_load @ motion)) * min(1.0, LARGEST / max(far, 1e-300))
 
     def _stepped(self, place: Place, work: float, tries: int) -> tuple[PoseStep, Smoothed | None]:
         """A smoothed step of a live work from a place, as the one before led there."""

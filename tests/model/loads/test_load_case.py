@@ -181,3 +181,9 @@ def test_unused_named_loads_are_remarked_on(tmp_path: Path) -> None:
     told = [notice.message for notice in read_deck(path).notices if notice.identifier == "load-unused"]
     assert len(told) == 1
     assert told[0].endswith("loads.a is not used")
+
+
+def test_a_step_of_a_pushover_is_longer_than_what_joints_give(tmp_path: Path) -> None:
+    (says,) = messages(tmp_path, "live: [{acceleration: [1, 0, 0]}], pushover: {step: 1.e-7}")
+    assert says.startswith("load_cases.push.pushover.step: must be > ")
+    assert "a millionth of the size of blocks, by which joints give" in says

@@ -160,7 +160,7 @@ def _rows_cut_off(results: Results, generator: random.Random) -> Results | None:
 
 def first_of(every: PushedRows, rows: int) -> PushedRows:
     """The first rows of a pushover."""
-    names = ("load_factors", "shifts", "turns", "fallen", "energies", "errors")
+    names = ("load_factors", "shifts", "turns", "fallen", "energies", "errors", "jumps", "unsolved")
     kept = {name: getattr(every, name)[:rows] for name in names}
     start = every.point_start[: rows + 1]
     points = RowPoints(**{name: values[: int(start[-1])] for name, values in vars(every.points).items()})

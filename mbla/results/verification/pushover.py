@@ -1,0 +1,87 @@
+"""What a pushover in a file shows, and what it says that only the run can know.
+
+Its rows are recomputed before: where forces are off their law or out of balance there must be a remark. Here its end is
+held against its rows, the rows against the steps asked for, the energies against poses and load factors.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from mbla.contacts.contacts import Contacts
+from mbla.deck import Deck
+from mbla.model import Model
+from mbla.results.results import CaseResult
+from mbla.solution.pushover.curve import why_not_pushed
+from mbla.solution.pushover.ends import SHOWN, end_failure, gaps
+from mbla.solution.pushover.pushed import CurveEnd
+from mbla.solution.pushover.record import PushedRows
+from mbla.solution.solution import Status
+from mbla.solution.verification.row_energies import energy_failure, energy_lost
+from mbla.solution.verification.row_laws import row_of_another_law
+
+NOTABLE = 0.02
+"""Energy over the greatest whose loss must have a reason."""
+
+
+def pushover_differences(deck: Deck, model: Model, contacts: Contacts, case: CaseResult) -> Iterator[str]:
+    """Where a pushover is not what its deck and its own rows give, in words.
+
+    model : as it may move under the load case
+    case  : with checks, status and curve recomputed
+    """
+    solution, load_case = case.solution, case.load_case
+    against = why_not_pushed(model, load_case, solution, case.status is Status.SOLVED)
+    if solution.pushed is None:
+        if not against:
+            yield "the deck asks for the pushover, which the file does not have"
+        return
+    if against:
+        yield f"the file has a pushover, which no run makes of this case: {against}"
+        return
+    if failure := end_failure(load_case, solution.curve, solution.curve_end):
+        yield failure
+    elif solution.curve_end is CurveEnd.LATE and deck.analysis.time_limit is None:
+        yield f"the deck has no time limit, the file says of its pushover: {solution.curve_end}"
+    yield from _rows_missing(case)
+    if failure := energy_failure(load_case, solution.pushed):
+        yield failure
+    if (row := row_of_another_law(model, contacts, deck.contacts, solution.pushed)) is not None:
+        yield f"step {row} of the pushover has contact points with a joint law that its deck does not give them"
+    if _comes_back(solution.pushed):
+        yield "blocks that have fallen are part of the structure again further on in the pushover"
+
+
+def _rows_missing(case: CaseResult) -> Iterator[str]:
+    without = [row.step for row, says in gaps(case.load_case, case.solution.curve) if not says]
+    if without:
+        yield f"before step {without[0]} the pushover has no row where its deck asks for one: rows are missing"
+
+
+def _comes_back(rows: PushedRows) -> bool:
+    return bool((rows.fallen[:-1] & ~rows.fallen[1:]).any())
+
+
+def pushover_claims(case: CaseResult) -> Iterator[str]:
+    """What a pushover says that nothing in the file shows, in words: ``--again`` follows it anew."""
+    solution, load_case = case.solution, case.load_case
+    rows, curve = solution.pushed, solution.curve
+    if rows is None or load_case.pushover is None:
+        return
+    if solution.curve_end not in SHOWN:
+        yield f"why the pushover ends is not verified; the file says: {solution.curve_end}"
+        if load_case.assessment is not None:
+            yield "the verdict of the code rests on where the pushover ends, which is not verified"
+    said = [(row.step, says) for row, says in gaps(load_case, curve) if says]
+    if said:
+        step, says = said[0]
+        yield f"that the pushover has no row before step {step} is not verified; the file says: {says}"
+    if rows.fallen.any():
+        fallen = int(rows.fallen[-1].sum())
+        first = int(np.argmax(rows.fallen.any(axis=1)))
+        says = f"{fallen}, the first before step {first}"
+        yield f"blocks that fall without the rest are not verified; the file says: {says}"
+    if (lost := energy_lost(load_case, rows)) > NOTABLE:
+        yield f"that {lost:.2g} of the energy of the pushover is lost where blocks drop is not verified"
