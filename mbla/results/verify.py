@@ -116,16 +116,16 @@ def _recomputed_case(results: Results, case: CaseResult, deck: Deck | None) -> C
         crushable = bool(crushable_interfaces(model, contacts).any())
         solution = _as_asked_for(solution, load_case, deck, crushable=crushable)
     solution = with_derived(model, contacts, load_case, solution)
-    pushes = load_case.pushover is not None and solution.pushed is not None
-    if deck is not None and pushes and solution.mechanics is not None:
-        solution = begun_by(solution)
-        solution = replace(solution, curve=curve_of(model, contacts, deck.contacts, load_case, solution))
     if load_case.tilt is not None:
         tangent = found_tangent(model, contacts, load_case.tilt, load_case.live_load, solution)
         tilt = replace(load_case.tilt, tangent=tangent)
         upright = level_bound(model, contacts, replace(load_case, tilt=tilt), solution)
         angle = found_angle(tilt, load_case.live_load, solution)
         load_case = replace(load_case, tilt=replace(tilt, upright=upright, angle=angle))
+    pushes = load_case.pushover is not None and solution.pushed is not None
+    if deck is not None and pushes and solution.mechanics is not None:
+        solution = begun_by(load_case, solution)
+        solution = replace(solution, curve=curve_of(model, contacts, deck.contacts, load_case, solution))
     if solution.geometric_safety is not None:
         safety = solution.geometric_safety
         own = proved(model, contacts, load_case, safety)

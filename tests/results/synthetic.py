@@ -303,8 +303,8 @@ def full_solution(solution: Solution) -> Solution:
         path_last=0.4,
         path_by_stiffness=(PathByStiffness(0.2, 0.52), PathByStiffness(1.0, np.nan)),
         curve=(
-            CurveRow(0, 0.0, 0.5, 25.0, 0.0, 1e-9, 0.0, 0.0, 0.0, 0.0, 0.0, new_mechanism=False, debris=0, broken=0),
-            CurveRow(1, 0.02, 0.4, 26.0, 1e-4, 1e-9, 1e-8, 0.9, 0.1, 0.2, 0.8, new_mechanism=True, debris=1, broken=1),
+            CurveRow(0, 0.0, 0.5, 25.0, 3.0, 0.0, 1e-9, 0.0, 0.0, 0.0, 0.0, 0.0, False, debris=0, broken=0),
+            CurveRow(1, 0.02, 0.4, 26.0, 2.0, 1e-4, 1e-9, 1e-8, 0.9, 0.1, 0.2, 0.8, True, debris=1, broken=1),
         ),
         curve_end=CurveEnd.STEPS_DONE,
         curve_end_error=1e-3,

@@ -117,7 +117,7 @@ class LoadCaseSection(Section):
     pushover: PushoverSection | None = Field(
         None,
         description="after limit analysis: the load factor as the structure moves by finite displacements, step by "
-        "step; loads keep their direction",
+        "step; loads keep their direction. With `tilt` the angle of the table",
     )
     assessment: AssessmentSection | None = Field(
         None,
@@ -213,9 +213,9 @@ def _not_pushed(case: LoadCaseSection) -> Iterator[Finding]:
         words = "goes with live loads: a support that gives way is followed by its own amount"
         yield Finding("pushover-not-possible", words, "pushover")
     for number, load in enumerate(case.live or []):
-        for kind in given(load, LIVE_ONLY):
-            words = "cannot go with pushover, whose loads keep their direction and their place"
-            yield Finding("pushover-not-possible", words, "live", number, kind)
+        if load.travel is not None:
+            words = "cannot go with pushover, whose loads keep their place"
+            yield Finding("pushover-not-possible", words, "live", number, "travel")
 
 
 def _not_assessed(case: LoadCaseSection, assessment: AssessmentSection) -> Iterator[Finding]:

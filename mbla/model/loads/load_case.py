@@ -82,9 +82,8 @@ def build_load_cases(name: str, section: LoadCaseSection, site: LoadSite) -> tup
     live = _add_up(entries_of(section.live or [], (*path, "live"), site.named), site, live=True)
     tilt, positions = None, list[tuple[TravelPosition | None, AppliedLoad | None]]([(None, None)])
     if section.live and (table := section.live[0].tilt) is not None:  # what it turns first stands for the live load
-        tilt = tilt_loads(table, dead_loads, dead.net, path, site)
-        words = f"tilt about {vector(table.axis)}"
-        live = live.plus(AppliedLoad(np.arange(len(site.blocks)), without_levers(tilt.across), words))
+        tilt, across = tilt_loads(table, dead_loads, dead.net, path, site)
+        live = live.plus(across)
     _judge_soil(name, gravity_of(dead_loads), tilt is not None, site)
     for number, load in enumerate(section.live or []):
         if load.travel is not None:  # a rule of the deck: at most one does

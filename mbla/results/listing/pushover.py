@@ -7,7 +7,8 @@ from collections.abc import Sequence
 import numpy as np
 
 from mbla.arrays import evenly
-from mbla.model.model import Model
+from mbla.model.model import LoadCase, Model
+from mbla.results.listing.answers import answer_head
 from mbla.results.listing.text import MOST_ROWS, counted, long_table, number, sentence, small, within
 from mbla.results.listing.verdict_words import load_factor_words
 from mbla.results.outcome import curve_residual, ultimate_displacement
@@ -33,7 +34,7 @@ def curve_words(model: Model, case: CaseResult) -> str:
         says += f"the support has moved by {within(last.displacement, end)} {length}, where {words}"
     else:
         top = max(curve, key=lambda row: row.load_factor)
-        highest = load_factor_words(model, case.load_case, top.load_factor)
+        highest = row_words(model, case.load_case, top)
         says = (
             f"Pushover of {counted(len(curve) - 1, 'step')}: at most {highest} at {number(top.displacement)} {length}; "
         )
@@ -41,10 +42,7 @@ def curve_words(model: Model, case: CaseResult) -> str:
         if case.solution.curve_end is CurveEnd.NOTHING_LEFT:
             says += f"nothing at {within(ultimate, end)} {length}"
         else:
-            says += (
-                f"{load_factor_words(model, case.load_case, last.load_factor)} at {within(last.displacement, end)} "
-                f"{length}"
-            )
+            says += f"{row_words(model, case.load_case, last)} at {within(last.displacement, end)} {length}"
             says += f", where {words}"
     errors = np.array([row.error for row in curve])
     if np.isfinite(errors).any():
@@ -59,6 +57,13 @@ def curve_words(model: Model, case: CaseResult) -> str:
     fallen = curve[-1].debris
     says += f"; {counted(fallen, 'block')} fell before the rest" if fallen else ""
     return f"{says}. {curve_verdict(case, length)}"
+
+
+def row_words(model: Model, load_case: LoadCase, row: CurveRow) -> str:
+    """The load factor of a row as that of its load case: ``0.145 g``; of a tilting table ``9.3 degrees of tilt``."""
+    if load_case.tilt is not None:
+        return f"{number(row.angle)} degrees of tilt"
+    return load_factor_words(model, load_case, row.load_factor)
 
 
 def curve_verdict(case: CaseResult, length: str) -> str:
@@ -89,12 +94,12 @@ def curve_lines(model: Model, case: CaseResult) -> list[str]:
     curve, units = case.solution.curve, model.units
     if not curve:
         return []
-    settles, tied = case.load_case.settlement is not None, bool(len(model.ties))
+    tied = bool(len(model.ties))
     shown = [curve[row] for row in evenly(len(curve), MOST_ROWS)]
     rows = [
         [
             str(row.step),
-            *(number(value) for value in (row.displacement, row.reaction if settles else row.load_factor)),
+            *(number(value) for value in (row.displacement, row.answer)),
             *(small(value) for value in (row.residual if row.step else np.nan, row.overlap)),
             *(number(value) for value in (row.live_work, row.friction, row.potential)),
             *([number(row.tie_work)] if tied else []),
@@ -102,7 +107,7 @@ def curve_lines(model: Model, case: CaseResult) -> list[str]:
         ]
         for row in shown
     ]
-    head = ["step", f"moved [{units.length}]", f"reaction [{units.force}]" if settles else "load factor", "residual"]
+    head = ["step", f"moved [{units.length}]", answer_head(model, case.load_case), "residual"]
     head += ["overlap", "live work", "friction", "dead load", *(["ties"] if tied else []), "motion"]
     says = [curve_words(model, case)]
     missing = energy_missing(curve)

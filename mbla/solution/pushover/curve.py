@@ -51,6 +51,7 @@ def why_not_pushed(model: Model, case: LoadCase, solution: Solution, solved: boo
     crush = any(np.isfinite(law.compressive_strength) for law in model.joints.values())
     against = {
         "the load case is not solved": not solved or solution.mechanics is None,
+        "the table collapses at no angle": not np.isfinite(factor_at_start(case, solution)),
         "guided blocks turn and move besides": turns_and_slides(model.guides),
         "joints can crush": crush,
         "flow_rule: livesley": solution.flow_rule == "livesley",
@@ -71,6 +72,16 @@ def start_of(solution: Solution) -> Mechanics:
     if least is None or abs(least.load_factor - own.load_factor) > SAME_STATE * abs(own.load_factor):
         return own
     return least
+
+
+def factor_at_start(case: LoadCase, solution: Solution) -> float:
+    """Load factor of row 0; of a tilting table its angle in radians. nan where the structure does not start to move."""
+    if solution.mechanics is None:
+        return np.nan
+    factor = start_of(solution).load_factor
+    if case.tilt is None:
+        return factor
+    return float(np.arctan(factor) if case.tilt.tangent else np.radians(case.tilt.angle))
 
 
 def no_pushover(against: str) -> Message:
@@ -98,7 +109,7 @@ def pushed(
     asked, first = case.pushover, solution.mechanics
     if against or first is None or asked is None:
         return replace(solution, remarks=(*solution.remarks, no_pushover(against)))
-    first = start_of(solution)
+    first = replace(start_of(solution), load_factor=factor_at_start(case, solution))
     structure = PushedStructure.of(model, contacts, section, case, settings.analysis.flow_rule)
     control = Control.of(model, case, first.mechanism)
     watch = _watched(log)
@@ -220,14 +231,14 @@ def pushover_remarks(model: Model, contacts: Contacts, case: LoadCase, solution:
     return (*remarks, *_step_remarks(case, solution))
 
 
-def begun_by(solution: Solution) -> Solution:
+def begun_by(case: LoadCase, solution: Solution) -> Solution:
     """The solution with the load factor at which it starts to move in row 0 of its pushover, as it must be."""
     rows = solution.pushed
     if rows is None or solution.mechanics is None:
         return solution
     factors, shifts = rows.load_factors.copy(), rows.shifts.copy()
     turns, fallen = rows.turns.copy(), rows.fallen.copy()
-    factors[0], shifts[0], turns[0], fallen[0] = start_of(solution).load_factor, 0.0, 0.0, False
+    factors[0], shifts[0], turns[0], fallen[0] = factor_at_start(case, solution), 0.0, 0.0, False
     return replace(solution, pushed=replace(rows, load_factors=factors, shifts=shifts, turns=turns, fallen=fallen))
 
 
@@ -258,6 +269,7 @@ def curve_of(
                 displacement=control.displacement(model, pose),
                 load_factor=float(factors[number]),
                 reaction=np.nan if case.settlement is None else case.settlement.reaction(float(factors[number])),
+                angle=np.nan if case.tilt is None else float(np.degrees(factors[number])),
                 error=float(rows.errors[number]),
                 residual=found[number].largest if number else begins,
                 overlap=found[number].overlap if number else 0.0,

@@ -132,7 +132,7 @@ class PoseStep:
         """
         u = self.joints.displacements(twists)
         pose = self.joints.after(self.start.pose, u)
-        at = self.joints.there(pose)
+        at = self.joints.there(pose, self.factor)
         done = float(self.start.joints.program.live_load @ u)
         step = self._from(at, u, done)
         force, overlap = self._force(at), self._force(at) / self.joints.length
@@ -148,7 +148,8 @@ class PoseStep:
         if found is None:
             return None
         state, directions = found
-        return Smoothed(self.joints.there(self.joints.after(pose, state.u)), state, u + state.u, directions)
+        there = self.joints.there(self.joints.after(pose, state.u), state.factor)
+        return Smoothed(there, state, u + state.u, directions)
 
     def solved(self, near: Smoothed | None = None) -> Found | None:
         """The best by the law as it is, from a smoothed step or from the beginning; None where there is none."""
@@ -284,7 +285,8 @@ class PoseStep:
             else:
                 return best
             done += 0.0 if fixed else float(at.joints.program.live_load @ du)
-            at, u, factor = self.joints.there(self.joints.after(at.pose, du)), u + du, factor + by
+            u, factor = u + du, factor + by
+            at = self.joints.there(self.joints.after(at.pose, du), factor)
         return best
 
     def _primal(self, at: JointsAt, u: FloatArray, factor: float, done: float, number: int) -> Found | None:
@@ -309,7 +311,7 @@ class PoseStep:
         if not self._size(state.u) < 4.0 * FARTHEST:
             return None
         done += float(at.joints.program.live_load @ state.u) if self.driven else 0.0
-        there = self.joints.there(self.joints.after(at.pose, state.u))
+        there = self.joints.there(self.joints.after(at.pose, state.u), state.factor)
         return self._newton(there, u + state.u, state.factor, done)
 
     def _left(self, step: JointStep, state: StepState) -> float:

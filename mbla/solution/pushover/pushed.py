@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from enum import StrEnum
 
@@ -27,8 +28,9 @@ class CurveRow:
 
     step         : from 0, the structure as it starts to move
     displacement : of the control point, m
-    load_factor  : that holds the structure there
+    load_factor  : that holds the structure there; of a tilting table its angle, rad
     reaction     : of a support that gives way, N; nan without one
+    angle        : of a tilting table, degrees; nan without one
     error        : estimated error of the load factor, from steps of twice the size; nan where that is not known
     residual     : of the law of elastic joints and of balance, the greater; nan of row 0
     overlap      : m, the greatest of blocks
@@ -43,6 +45,7 @@ class CurveRow:
     displacement: float
     load_factor: float
     reaction: float
+    angle: float
     error: float
     residual: float
     overlap: float
@@ -53,3 +56,8 @@ class CurveRow:
     new_mechanism: bool
     debris: int
     broken: int
+
+    @property
+    def answer(self) -> float:
+        """What is asked for: the reaction of a support, the angle of a table in degrees, else the load factor."""
+        return next((each for each in (self.reaction, self.angle) if not math.isnan(each)), self.load_factor)

@@ -48,6 +48,7 @@ class PushedStructure:
         model: Model, contacts: Contacts, section: ContactsSection, case: LoadCase, flow_rule: str
     ) -> PushedStructure:
         """From contacts as built."""
+        case = case if case.tilt is None else replace(case, live_load=case.tilt.across)
         solids = solids_of(replace(model, ties=NO_TIES), contacts)
         numbers = _numbers(solids.contacts.bodies, _n_bodies(solids.model))
         pairs, place = np.unique(numbers, return_inverse=True)
@@ -85,14 +86,24 @@ class PushedStructure:
         arms = np.einsum("nij,nj->ni", pose.rotation[self.solids.label], self.solids.arms)
         return replace(self.solids, model=moved_model(self.solids.model, pose), contacts=contacts, arms=arms)
 
-    def loads_at(self, pose: Pose, fallen: BoolArray) -> tuple[FloatArray, FloatArray]:
-        """Dead and live load on the solids there, (n_solids, 6) each, without those of debris, (n_solids,)."""
+    def loads_at(self, pose: Pose, fallen: BoolArray, load_factor: float) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Dead and live load on the solids there, (n_solids, 6) each, and the change of all loads with the load factor.
+
+        Without those of debris, (n_solids,). The change is the live load, but for a tilting table at the angle λ::
+
+            fixed + cos λ turning + λ (sin λ / λ) across,     change −sin λ turning + cos λ across
+        """
         case = moved_case(self.case, self.blocks_at(pose))
         arms = np.einsum("nij,nj->ni", pose.rotation[self.solids.label], self.solids.arms)
+        loads = case.dead_load, case.live_load, case.live_load
+        if case.tilt is not None:
+            cos, sin, tilt = np.cos(load_factor), np.sin(load_factor), case.tilt
+            dead = tilt.fixed + cos * tilt.turning
+            loads = dead, np.sinc(load_factor / np.pi) * tilt.across, cos * tilt.across - sin * tilt.turning
         solids = replace(self.solids, arms=arms)
-        dead, live = solids.loads(case.dead_load), solids.loads(case.live_load)
-        dead[fallen], live[fallen] = 0.0, 0.0
-        return dead, live
+        dead, live, change = (solids.loads(each) for each in loads)
+        dead[fallen], live[fallen], change[fallen] = 0.0, 0.0, 0.0
+        return dead, live, change
 
     def ties_at(self, pose: Pose) -> Ties:
         """Ties there."""

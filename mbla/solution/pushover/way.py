@@ -175,7 +175,7 @@ class Way:
         joints = MovedJoints.at_pose(structure, pose, none, ties.broken(structure.model.ties), RATIO)
         slips = np.zeros((joints.components - 1, joints.n_points))
         history = History(np.zeros((joints.components, joints.n_points)), slips)
-        at = joints.there(pose)
+        at = joints.there(pose, 0.0)
         step = PoseStep(joints, history, at, 0.0, 0.0, driven=self.settles)
         found = step.solved()
         self.spent += step.spent
