@@ -35,7 +35,14 @@ from mbla.results.hdf5.result_file import differences_of_file, read_results_hdf5
 from mbla.results.outcome import WITH_VALUE, least_factor, locked_in, presumes_standing
 from mbla.results.provenance import as_expected, deck_of, notices_of, settings_in_words
 from mbla.results.results import CaseResult, PathAgain, Results
-from mbla.results.verification.asked import Found, at_work, cases_left_out, differences_of_stop, held_against_deck
+from mbla.results.verification.asked import (
+    Found,
+    at_work,
+    cases_left_out,
+    differences_of_positions,
+    differences_of_stop,
+    held_against_deck,
+)
 from mbla.results.verification.remarks import MADE_LAST, differences_of_remarks, remarks_found_again
 from mbla.solution.glued import with_derived
 from mbla.solution.limits.geometric_safety import proved
@@ -77,6 +84,7 @@ def verify_file(path: Path, *, anew: bool = False) -> tuple[Results, tuple[str, 
         disagreements += tuple(f"{name}: {text}" for text in found.differences)
         unconfirmed += tuple(f"{name}: {text}" for text in found.unconfirmed)
     disagreements += differences_of_stop(results)
+    disagreements += () if deck is None else tuple(differences_of_positions(deck, again))
     left_out = cases_left_out(results)
     unconfirmed += left_out if results.complete else ()  # a partial file says that it is one
     disagreements += differences_of_file(path, write_results_hdf5(again))
@@ -250,7 +258,8 @@ def _placed_as(stored: Sequence[Notice], notices: Sequence[Notice], folder: Path
 def _with_loads_found(model: Model, of_file: Model) -> Model:
     """The model with what is found of its loads by solving, as the file has it: no deck says it.
 
-    That is the reaction from which a support gives way, and the angle of a tilting table.
+    That is the reaction from which a support gives way, the angle of a tilting table, and at which position of a
+    travelling load the structure is pushed.
     """
     known = {case.name: case for case in of_file.load_cases}
     cases = tuple(_found(case, known[case.name]) if case.name in known else case for case in model.load_cases)
@@ -260,6 +269,8 @@ def _with_loads_found(model: Model, of_file: Model) -> Model:
 def _found(case: LoadCase, of_file: LoadCase) -> LoadCase:
     if case.settlement is not None and of_file.settlement is not None:
         return with_reference(case, of_file.settlement.reference)
+    if case.travel is not None and of_file.pushover is None:
+        return replace(case, pushover=None)
     tilt, known = case.tilt, of_file.tilt
     if tilt is None or known is None:
         return case
