@@ -16,6 +16,7 @@ from mbla.model.model import LoadCase, Model
 from mbla.model.pose import Pose, moved_case, moved_model
 from mbla.model.ties.moved import moved_ties
 from mbla.model.ties.ties import NO_TIES, Ties
+from mbla.program.reductions.scene import refined
 
 SAG = 1e-6
 """Overlap of two blocks under the weight of one, over the size of a block: 1e10 Pa/m for blocks of half a metre."""
@@ -131,16 +132,25 @@ class PushedStructure:
     def areas_of(self, touching: Touching) -> FloatArray:
         """Area that each contact point is as stiff as, (n_points,) m²: what two solids share as built, by their points.
 
-        Two solids that meet only later are as stiff as others in the mean.
+        Two solids that meet only later are as stiff as others in the mean. Corners share it equally, points of a grid
+        by their areas.
         """
         contacts = touching.contacts
         numbers = _numbers(contacts.bodies, _n_bodies(self.solids.model))
         row = np.minimum(np.searchsorted(self.pairs, numbers), len(self.pairs) - 1)
         of_pair = np.where(self.pairs[row] == numbers, self.areas[row], self.areas.mean())
         pair, place = np.unique(numbers, return_inverse=True)
-        of_point = place.ravel()[contacts.interface_of_point]
-        count = np.bincount(of_point, minlength=len(pair))
-        return np.asarray(of_pair[contacts.interface_of_point] / np.maximum(count, FEWEST)[of_point])
+        interface = contacts.interface_of_point
+        of_point = place.ravel()[interface]
+        shares = (1.0 / np.maximum(np.bincount(of_point, minlength=len(pair)), FEWEST))[of_point]
+        grid = refined(interface, contacts.points, contacts.frames[:, 0])
+        if grid.any():
+            equal = (contacts.areas / np.maximum(np.diff(contacts.point_start), 1))[interface]
+            own = np.where(grid, contacts.point_areas, equal)
+            of_grid = np.bincount(of_point, grid, len(pair))[of_point] > 0.0
+            whole = np.bincount(of_point, own, len(pair))[of_point]
+            shares = np.where(of_grid & (whole > 0.0), own / np.maximum(whole, 1e-300), shares)
+        return np.asarray(of_pair[interface] * shares)
 
 
 FEWEST = 4
