@@ -303,8 +303,8 @@ def full_solution(solution: Solution) -> Solution:
         path_last=0.4,
         path_by_stiffness=(PathByStiffness(0.2, 0.52), PathByStiffness(1.0, np.nan)),
         curve=(
-            CurveRow(0, 0.0, 0.5, 25.0, 3.0, 0.0, 1e-9, 0.0, 0.0, 0.0, 0.0, 0.0, False, debris=0, broken=0),
-            CurveRow(1, 0.02, 0.4, 26.0, 2.0, 1e-4, 1e-9, 1e-8, 0.9, 0.1, 0.2, 0.8, True, debris=1, broken=1),
+            CurveRow(0, 0.0, 0.5, 25.0, 3.0, 0.0, 1e-9, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, False, debris=0, broken=0),
+            CurveRow(1, 0.02, 0.4, 26.0, 2.0, 1e-4, 1e-9, 1e-8, 0.9, 0.1, 0.2, 0.05, 0.8, True, debris=1, broken=1),
         ),
         curve_end=CurveEnd.STEPS_DONE,
         curve_end_error=1e-3,
@@ -314,7 +314,7 @@ def full_solution(solution: Solution) -> Solution:
             shifts=np.stack([np.zeros((3, 3)), np.arange(9.0).reshape(3, 3) / 100.0]),
             turns=np.stack([np.zeros((3, 3)), np.arange(9.0).reshape(3, 3) / 50.0]),
             fallen=np.array([[False, False, False], [False, False, True]]),
-            energies=np.array([[0.0, 0.0, 0.0, 0.0], [0.9, 0.1, 0.2, 0.8]]),
+            energies=np.array([[0.0, 0.0, 0.0, 0.0, 0.0], [0.9, 0.1, 0.2, 0.05, 0.8]]),
             errors=np.array([0.0, 1e-4]),
             point_start=np.array([0, 0, 2]),
             points=RowPoints(

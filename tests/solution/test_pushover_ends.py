@@ -12,7 +12,7 @@ from mbla.solution.pushover.pushed import CurveEnd, CurveRow
 from tests.line import BLOCK, line_of
 
 NAN = float("nan")
-STEP = CurveRow(0, 0.0, 1.0, NAN, NAN, NAN, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, False, 0, 0)
+STEP = CurveRow(0, 0.0, 1.0, NAN, NAN, NAN, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, False, 0, 0)
 
 
 def pushed_case(until: str = "1", steps: int = 50) -> LoadCase:

@@ -94,7 +94,7 @@ def curve_lines(model: Model, case: CaseResult) -> list[str]:
     curve, units = case.solution.curve, model.units
     if not curve:
         return []
-    tied = bool(len(model.ties))
+    tied, crushed = bool(len(model.ties)), any(row.crushing for row in curve)
     shown = [curve[row] for row in evenly(len(curve), MOST_ROWS)]
     rows = [
         [
@@ -103,22 +103,25 @@ def curve_lines(model: Model, case: CaseResult) -> list[str]:
             *(small(value) for value in (row.residual if row.step else np.nan, row.overlap)),
             *(number(value) for value in (row.live_work, row.friction, row.potential)),
             *([number(row.tie_work)] if tied else []),
+            *([number(row.crushing)] if crushed else []),
             "new" if row.new_mechanism else "",
         ]
         for row in shown
     ]
     head = ["step", f"moved [{units.length}]", answer_head(model, case.load_case), "residual"]
-    head += ["overlap", "live work", "friction", "dead load", *(["ties"] if tied else []), "motion"]
+    head += ["overlap", "live work", "friction", "dead load", *(["ties"] if tied else [])]
+    head += [*(["crushing"] if crushed else []), "motion"]
     says = [curve_words(model, case)]
     missing = energy_missing(curve)
-    taken = "friction, ties and what" if tied else "friction and what"
-    says.append(f"Live work less {taken} the dead load gained: {missing:.2g} of the live work.")
+    taken = ", ".join(["friction", *(["ties"] if tied else []), *(["crushing"] if crushed else [])])
+    says.append(f"Live work less {taken} and what the dead load gained: {missing:.2g} of the live work.")
     says.append(f"Work and energies in {units.force} {units.length}, overlap of blocks in {units.length}.")
     return ["", *(line for words in says for line in sentence(words)), *long_table(head, rows, len(curve))[1:]]
 
 
 def energy_missing(curve: Sequence[CurveRow]) -> float:
-    """Live work that neither friction, ties nor the dead load has taken, over the largest of these."""
+    """Live work that neither friction, ties, crushing nor the dead load has taken, over the largest of these."""
     last = curve[-1]
-    size = max(abs(last.live_work), last.friction, last.tie_work, abs(last.potential), 1e-300)
-    return (last.live_work - last.friction - last.tie_work - last.potential) / size
+    taken = last.friction, last.tie_work, last.crushing
+    size = max(abs(last.live_work), *taken, abs(last.potential), 1e-300)
+    return (last.live_work - sum(taken) - last.potential) / size

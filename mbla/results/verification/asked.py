@@ -106,7 +106,7 @@ def held_against_deck(deck: Deck, model: Model, contacts: Contacts, case: CaseRe
         found.differences.append(f"the load case is {'' if done else 'not '}done, and its pushover ends: {end or '-'}")
     if not done:
         return found
-    _pushover(found, deck, model, case)
+    _pushover(found, deck, model, contacts, case)
     _limits(found, deck, model, contacts, case)
     _associative(found, model, contacts, case)
     _history(found, deck, case)
@@ -142,11 +142,11 @@ def _not_asked(deck: Deck, case: CaseResult) -> Iterator[str]:
     return (what for what, (part, asked) in present.items() if part is not None and not asked)
 
 
-def _pushover(found: Found, deck: Deck, model: Model, case: CaseResult) -> None:
+def _pushover(found: Found, deck: Deck, model: Model, contacts: Contacts, case: CaseResult) -> None:
     solution, load_case = case.solution, case.load_case
     if load_case.pushover is None:
         return
-    against = why_not_pushed(model, case.load_case, solution, case.status is Status.SOLVED)
+    against = why_not_pushed(model, contacts, case.load_case, solution, case.status is Status.SOLVED)
     if solution.pushed is None:
         found.differences += [] if against else [lacks("pushover")]
     elif against:

@@ -34,8 +34,8 @@ class CurveRow:
     error        : estimated error of the load factor, from steps of twice the size; nan where that is not known
     residual     : of the law of elastic joints and of balance, the greater; nan of row 0
     overlap      : m, the greatest of blocks
-    live_work, friction, tie_work, potential : J since row 0: work of the live load, dissipated in sliding and by ties,
-                   gained by the dead load
+    live_work, friction, tie_work, crushing, potential : J since row 0: work of the live load, dissipated in sliding, by
+                   ties and in joints that crush, gained by the dead load
     new_mechanism : whether it has moved there in another way than to the row before
     debris       : blocks that have fallen without the rest
     broken       : ties that have broken, or went with debris
@@ -52,6 +52,7 @@ class CurveRow:
     live_work: float
     friction: float
     tie_work: float
+    crushing: float
     potential: float
     new_mechanism: bool
     debris: int
