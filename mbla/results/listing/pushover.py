@@ -79,7 +79,8 @@ def curve_verdict(case: CaseResult, length: str) -> str:
     if not rough:
         overlap = max(row.overlap for row in case.solution.curve)
         says = f"Verified: every step meets equilibrium and the joint law to {worst:.1g}"
-        says += f", blocks overlap by {overlap:.1g} {length} at most"
+        crushes = any(row.crushing for row in case.solution.curve)
+        says += f", {'points are crushed' if crushes else 'blocks overlap'} by {overlap:.1g} {length} at most"
         missing = abs(energy_missing(case.solution.curve))
         return (
             f"{says}." if missing < NOTABLE_MISS else f"{says}; {missing:.2g} of the energy is lost where blocks drop."
@@ -101,21 +102,20 @@ def curve_lines(model: Model, case: CaseResult) -> list[str]:
             str(row.step),
             *(number(value) for value in (row.displacement, row.answer)),
             *(small(value) for value in (row.residual if row.step else np.nan, row.overlap)),
-            *(number(value) for value in (row.live_work, row.friction, row.potential)),
+            *(number(value) for value in (row.live_work, row.friction + row.crushing, row.potential)),
             *([number(row.tie_work)] if tied else []),
-            *([number(row.crushing)] if crushed else []),
             "new" if row.new_mechanism else "",
         ]
         for row in shown
     ]
     head = ["step", f"moved [{units.length}]", answer_head(model, case.load_case), "residual"]
-    head += ["overlap", "live work", "friction", "dead load", *(["ties"] if tied else [])]
-    head += [*(["crushing"] if crushed else []), "motion"]
+    head += ["overlap", "live work", "friction", "dead load", *(["ties"] if tied else []), "motion"]
     says = [curve_words(model, case)]
     missing = energy_missing(curve)
-    taken = ", ".join(["friction", *(["ties"] if tied else []), *(["crushing"] if crushed else [])])
+    taken = "friction, ties" if tied else "friction"
     says.append(f"Live work less {taken} and what the dead load gained: {missing:.2g} of the live work.")
     says.append(f"Work and energies in {units.force} {units.length}, overlap of blocks in {units.length}.")
+    says += ["Friction is with what crushing takes."] if crushed else []
     return ["", *(line for words in says for line in sentence(words)), *long_table(head, rows, len(curve))[1:]]
 
 
