@@ -96,13 +96,15 @@ class PushedStructure:
         """
         case = moved_case(self.case, self.blocks_at(pose))
         arms = np.einsum("nij,nj->ni", pose.rotation[self.solids.label], self.solids.arms)
-        loads = case.dead_load, case.live_load, case.live_load
-        if case.tilt is not None:
-            cos, sin, tilt = np.cos(load_factor), np.sin(load_factor), case.tilt
-            dead = tilt.fixed + cos * tilt.turning
-            loads = dead, np.sinc(load_factor / np.pi) * tilt.across, cos * tilt.across - sin * tilt.turning
         solids = replace(self.solids, arms=arms)
-        dead, live, change = (solids.loads(each) for each in loads)
+        if case.tilt is None:
+            dead, live = solids.loads(case.dead_load), solids.loads(case.live_load)
+            dead[fallen], live[fallen] = 0.0, 0.0
+            return dead, live, live
+        tilt, cos, sin = case.tilt, np.cos(load_factor), np.sin(load_factor)
+        dead = solids.loads(tilt.fixed + cos * tilt.turning)
+        live = solids.loads(np.sinc(load_factor / np.pi) * tilt.across)
+        change = solids.loads(cos * tilt.across - sin * tilt.turning)
         dead[fallen], live[fallen], change[fallen] = 0.0, 0.0, 0.0
         return dead, live, change
 
