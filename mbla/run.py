@@ -26,8 +26,10 @@ from mbla.results.files import OutputFolder
 from mbla.results.partial import Partial
 from mbla.results.provenance import as_expected, results_before, with_case
 from mbla.results.results import CaseResult, Results
+from mbla.results.series import position_to_push
 from mbla.results.sta import StatusFile
 from mbla.results.write import write_results
+from mbla.solution.cone_solvers.cone_solution import Log
 from mbla.solution.settings import SolverSettings, settings_for, solver_settings
 from mbla.solution.solution import IterationRecord, Solution, Status
 from mbla.solution.solve import solve
@@ -134,9 +136,19 @@ def solved_case_by_case(
         memory = Memory()
         for load_case in load_cases:
             tell = _teller(at_work, results, found, stopwatch)
+            travels = load_case.travel is not None  # which of its positions is pushed is known when all are solved
+            case = replace(load_case, pushover=None) if travels else load_case
             with sharing(memory):
-                solved = solve_case(deck, model, contacts, load_case, settings, status_file, progress, tell)
+                solved = solve_case(deck, model, contacts, case, settings, status_file, progress, tell)
             results = with_case(results, solved, time.perf_counter() - found, stopwatch)
+            left = {each.deck_name for each in load_cases if each.name in results.not_done}
+            chosen = None if load_case.deck_name in left else position_to_push(load_case, model, results.cases)
+            if chosen is not None:
+                results = replace(results, not_done=(chosen.load_case.name, *results.not_done))
+                yield results
+                tell = _teller(at_work, results, found, stopwatch)
+                pushed = push_position(deck, model, contacts, chosen, settings, status_file, progress, tell)
+                results = with_case(results, pushed, time.perf_counter() - found, stopwatch)
             yield as_expected(results, deck) if options.expected and not results.not_done else results
 
 
@@ -167,12 +179,7 @@ def solve_case(
 
     tell : told how to make the load case as far as it has come, where it is pushed on
     """
-
-    def log(record: IterationRecord) -> None:
-        status_file.add(load_case.name, record)
-        if progress is not None:
-            progress(load_case.name, record)
-
+    log = _log_of(load_case, status_file, progress)
     trials = trials_of(model, contacts, load_case, settings)
     moving = model.of_case(load_case)
     settings = settings_for(load_case, settings)
@@ -183,17 +190,10 @@ def solve_case(
     answer = trials.answer
     status = verified_status(answer.solution, answer.checks)
     status_file.remark(f"{load_case.name}: {status}")
+    found = CaseResult(answer.load_case, answer.solution, answer.checks, status)
     solution = answer.solution
-
-    def found(solution: Solution) -> CaseResult:
-        solution = replace(solution, remarks=(*solution.remarks, *brittle_remarks(moving, solution)))
-        return with_remarks(moving, contacts, CaseResult(answer.load_case, solution, answer.checks, status))
-
     if load_case.pushover is not None:
-        from mbla.solution.pushover.curve import pushed  # late: few load cases are
-
-        of_case = (moving, contacts, deck.contacts, answer.load_case, solution, settings, log, status is Status.SOLVED)
-        solution = pushed(*of_case, lambda so_far: tell(lambda: found(so_far())))
+        solution = _pushed(deck, moving, contacts, found, settings, log, tell)
     if deck.analysis.sensitivity is not False:
         from mbla.solution.sensitivity.sensitivity import with_sensitivity  # late: few decks ask for it
 
@@ -202,4 +202,58 @@ def solve_case(
         from mbla.solution.limits.geometric_safety import with_geometric_safety  # late: few decks ask for it
 
         solution = with_geometric_safety(moving, contacts, answer.load_case, solution, deck.analysis, log)
-    return found(solution)
+    return _finished(moving, contacts, replace(found, solution=solution))
+
+
+def push_position(
+    deck: Deck,
+    model: Model,
+    contacts: Contacts,
+    case: CaseResult,
+    settings: SolverSettings,
+    status_file: StatusFile,
+    progress: Progress | None,
+    tell: Tell[CaseResult] = unheard,
+) -> CaseResult:
+    """A position of a travelling load that was solved, with its pushover; ``tell`` as in ``solve_case``."""
+    moving, log = model.of_case(case.load_case), _log_of(case.load_case, status_file, progress)
+    remarks = tuple(remark for remark in case.solution.remarks if remark.identifier != "brittle-ties")
+    case = replace(case, solution=replace(case.solution, remarks=remarks))
+    solution = _pushed(deck, moving, contacts, case, settings, log, tell)
+    return _finished(moving, contacts, replace(case, solution=solution))
+
+
+def _log_of(load_case: LoadCase, status_file: StatusFile, progress: Progress | None) -> Log:
+    """Writes iterations of a load case to the status file, and tells of them."""
+
+    def log(record: IterationRecord) -> None:
+        status_file.add(load_case.name, record)
+        if progress is not None:
+            progress(load_case.name, record)
+
+    return log
+
+
+def _pushed(
+    deck: Deck,
+    moving: Model,
+    contacts: Contacts,
+    case: CaseResult,
+    settings: SolverSettings,
+    log: Log,
+    tell: Tell[CaseResult],
+) -> Solution:
+    """The solution of a load case with its pushover."""
+    from mbla.solution.pushover.curve import pushed  # late: few load cases are
+
+    def so_far(make: Callable[[], Solution]) -> None:
+        tell(lambda: _finished(moving, contacts, replace(case, solution=make())))
+
+    solved = case.status is Status.SOLVED
+    return pushed(moving, contacts, deck.contacts, case.load_case, case.solution, settings, log, solved, so_far)
+
+
+def _finished(moving: Model, contacts: Contacts, case: CaseResult) -> CaseResult:
+    """A load case with the remarks that are made last."""
+    remarks = (*case.solution.remarks, *brittle_remarks(moving, case.solution))
+    return with_remarks(moving, contacts, replace(case, solution=replace(case.solution, remarks=remarks)))

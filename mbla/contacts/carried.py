@@ -157,7 +157,9 @@ class Touching:
     overlap: float
 
     @staticmethod
-    def found(centroids: FloatArray, sizes: FloatArray, corners: FloatArray, found: MovedContacts, pose: Pose) -> Touching:
+    def found(
+        centroids: FloatArray, sizes: FloatArray, corners: FloatArray, found: MovedContacts, pose: Pose
+    ) -> Touching:
         """New points: those of the body whose corner they are, on the face of the other, whose normal they have.
 
         centroids, sizes : of the bodies that move, as built; of these the contacts are

@@ -219,7 +219,8 @@ class LoadCase:
     settlement : support that gives way, None for none
     objective  : force whose least or greatest value is sought, by the settlement of what it acts through; None for none
     travel, tilt : where it is a position of a travelling load, or a tilting table
-    pushover : what follows limit analysis, None for nothing
+    pushover : what follows limit analysis, None for nothing; of positions of a travelling load all that may be pushed
+               have it, and once they are solved the one that is
     assessment : what a code is asked, None for nothing
     """
 

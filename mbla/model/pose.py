@@ -15,7 +15,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray, IntArray, row_of_item
 from mbla.model.guides import Guides
-from mbla.model.model import LoadCase, Model
+from mbla.model.model import LoadCase, Model, Pushing, Tilt
 from mbla.model.solids.blocks import Blocks
 from mbla.model.ties.ties import NO_TIES
 
@@ -74,12 +74,27 @@ class Pose:
 
 
 def moved_case(case: LoadCase, pose: Pose) -> LoadCase:
-    """The load case on blocks there: points of forces move along; forces and couples turn or keep their direction."""
+    """The load case on blocks there: points of forces move along; forces and couples turn or keep their direction.
+
+    Of a tilting table the loads of its ``Tilt``, whatever line of loads the case has for its live load.
+    """
     push = case.pushover
     assert push is not None  # else its levers are not known
     dead = _turned(case.dead_load, push.dead_levers, push.dead_following, pose)
     live = _turned(case.live_load, push.live_levers, push.live_following, pose)
-    return replace(case, dead_load=dead, live_load=live)
+    tilt = None if case.tilt is None else _moved_tilt(case.tilt, dead, push, pose)
+    return replace(case, dead_load=dead, live_load=live, tilt=tilt)
+
+
+def _moved_tilt(tilt: Tilt, dead: FloatArray, push: Pushing, pose: Pose) -> Tilt:
+    """With masses where they are there; gravity as it turns is the load across, a right angle further about the axis.
+
+    dead : (n_blocks, 6) there
+    """
+    none, levers = np.zeros_like(push.live_following), push.live_levers.reshape(-1, 3, 3)
+    turning = _turned(tilt.turning, np.cross(tilt.axis, levers).reshape(-1, 9), none, pose)
+    across = _turned(tilt.across, push.live_levers, none, pose)
+    return replace(tilt, fixed=dead - turning, turning=turning, across=across)
 
 
 def _turned(load: FloatArray, levers: FloatArray, following: FloatArray, pose: Pose) -> FloatArray:

@@ -202,13 +202,16 @@ def notices_of(deck: Deck, model: Model, contacts: Contacts) -> tuple[Notice, ..
 
 
 def with_case(results: Results, case: CaseResult, seconds: float, stopwatch: Stopwatch) -> Results:
-    """Results so far with one load case more.
+    """Results so far with one load case more, or with more of one that was solved before.
 
     seconds : since solving began
     """
     from mbla.results.exit_status import exit_code
 
-    cases = (*results.cases, case)
+    name = case.load_case.name
+    known = name in {each.load_case.name for each in results.cases}
+    cases = tuple(case if each.load_case.name == name else each for each in results.cases)
+    cases = cases if known else (*cases, case)
     return replace(
         results,
         model=with_loads_found(results.model, [case]),

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.errors import UsageError
-from mbla.model.model import TravelPosition
+from mbla.model.model import LoadCase, Model, TravelPosition
 from mbla.model.solids.blocks import Blocks
 from mbla.results.outcome import result_of
 from mbla.results.results import CaseResult, Results
@@ -50,14 +50,36 @@ def factor_of(case: CaseResult) -> float:
     return np.nan if found is None else found.load_factor
 
 
+def worst_known(cases: Sequence[CaseResult]) -> CaseResult:
+    """Of some positions of a travelling load the worst; of those that have a load factor where it is not known."""
+    factors = np.nan_to_num([factor_of(case) for case in cases], nan=np.inf)
+    return _worst(cases) or cases[int(np.argmin(factors))]
+
+
+def position_to_push(load_case: LoadCase, model: Model, cases: Sequence[CaseResult]) -> CaseResult | None:
+    """Of the positions of a travelling load that were solved the one to be pushed, with what is asked of its pushover.
+
+    model : of the deck, where all positions that may be pushed have a pushover
+    """
+    asked = {each.name: each.pushover for each in model.load_cases if each.deck_name == load_case.deck_name}
+    may_be = [case for case in cases if asked.get(case.load_case.name) is not None]
+    if load_case.travel is None or not may_be:
+        return None
+    worst = worst_known(may_be)
+    return replace(worst, load_case=replace(worst.load_case, pushover=asked[worst.load_case.name]))
+
+
 def detailed_cases(cases: Sequence[CaseResult]) -> tuple[CaseResult, ...]:
-    """Those reported in full: of a travelling load the worst position, and positions without result, which hide it."""
+    """Those reported in full: of a travelling load the worst position, and positions without result, which hide it.
+
+    The position that is pushed, too.
+    """
     names = {case.load_case.name for case in cases if case.load_case.travel is None}
     for series in series_of(cases):
         factors = np.array([factor_of(case) for case in series.cases])
         unknown = [case for case, factor in zip(series.cases, factors, strict=True) if np.isnan(factor)]
-        least = series.worst or series.cases[int(np.argmin(np.nan_to_num(factors, nan=np.inf)))]
-        names |= {case.load_case.name for case in (least, *unknown)}
+        pushed = [case for case in series.cases if case.load_case.pushover is not None]
+        names |= {case.load_case.name for case in (worst_known(series.cases), *unknown, *pushed)}
     return tuple(case for case in cases if case.load_case.name in names)
 
 

@@ -35,7 +35,14 @@ from mbla.results.hdf5.result_file import differences_of_file, read_results_hdf5
 from mbla.results.outcome import WITH_VALUE, least_factor, locked_in, presumes_standing
 from mbla.results.provenance import as_expected, deck_of, notices_of, settings_in_words
 from mbla.results.results import CaseResult, PathAgain, PushoverAgain, Results
-from mbla.results.verification.asked import Found, at_work, cases_left_out, differences_of_stop, held_against_deck
+from mbla.results.verification.asked import (
+    Found,
+    at_work,
+    cases_left_out,
+    differences_of_positions,
+    differences_of_stop,
+    held_against_deck,
+)
 from mbla.results.verification.remarks import MADE_LAST, differences_of_remarks, remarks_found_again
 from mbla.solution.glued import with_derived
 from mbla.solution.limits.geometric_safety import proved
@@ -80,6 +87,7 @@ def verify_file(path: Path, *, anew: bool = False) -> tuple[Results, tuple[str, 
         disagreements += tuple(f"{name}: {text}" for text in found.differences)
         unconfirmed += tuple(f"{name}: {text}" for text in (*found.unconfirmed, *found.of_pushover))
     disagreements += differences_of_stop(results)
+    disagreements += () if deck is None else tuple(differences_of_positions(deck, again))
     left_out = cases_left_out(results)
     unconfirmed += left_out if results.complete else ()  # a partial file says that it is one
     disagreements += differences_of_file(path, write_results_hdf5(again))
@@ -132,16 +140,16 @@ def _recomputed_case(results: Results, case: CaseResult, deck: Deck | None) -> C
         crushable = bool(crushable_interfaces(model, contacts).any())
         solution = _as_asked_for(solution, load_case, deck, crushable=crushable)
     solution = with_derived(model, contacts, load_case, solution)
-    pushes = load_case.pushover is not None and solution.pushed is not None
-    if deck is not None and pushes and solution.mechanics is not None:
-        solution = begun_by(solution)
-        solution = replace(solution, curve=curve_of(model, contacts, deck.contacts, load_case, solution))
     if load_case.tilt is not None:
         tangent = found_tangent(model, contacts, load_case.tilt, load_case.live_load, solution)
         tilt = replace(load_case.tilt, tangent=tangent)
         upright = level_bound(model, contacts, replace(load_case, tilt=tilt), solution)
         angle = found_angle(tilt, load_case.live_load, solution)
         load_case = replace(load_case, tilt=replace(tilt, upright=upright, angle=angle))
+    pushes = load_case.pushover is not None and solution.pushed is not None
+    if deck is not None and pushes and solution.mechanics is not None:
+        solution = begun_by(load_case, solution)
+        solution = replace(solution, curve=curve_of(model, contacts, deck.contacts, load_case, solution))
     if solution.geometric_safety is not None:
         safety = solution.geometric_safety
         own = proved(model, contacts, load_case, safety)
@@ -266,7 +274,8 @@ def _placed_as(stored: Sequence[Notice], notices: Sequence[Notice], folder: Path
 def _with_loads_found(model: Model, of_file: Model) -> Model:
     """The model with what is found of its loads by solving, as the file has it: no deck says it.
 
-    That is the reaction from which a support gives way, and the angle of a tilting table.
+    That is the reaction from which a support gives way, the angle of a tilting table, and at which position of a
+    travelling load the structure is pushed.
     """
     known = {case.name: case for case in of_file.load_cases}
     cases = tuple(_found(case, known[case.name]) if case.name in known else case for case in model.load_cases)
@@ -276,6 +285,8 @@ def _with_loads_found(model: Model, of_file: Model) -> Model:
 def _found(case: LoadCase, of_file: LoadCase) -> LoadCase:
     if case.settlement is not None and of_file.settlement is not None:
         return with_reference(case, of_file.settlement.reference)
+    if case.travel is not None and of_file.pushover is None:
+        return replace(case, pushover=None)
     tilt, known = case.tilt, of_file.tilt
     if tilt is None or known is None:
         return case

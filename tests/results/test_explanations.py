@@ -32,6 +32,7 @@ COMPUTED = {
     "identifier": set(),  # passed on; the caller has it
     "*row": set(),  # read back from a file
     "own": set(),  # positions of a travelling load, no identifier
+    "cases": set(),  # the same
 }
 """Identifiers that are no constants, as the source has them, and what they can be."""
 

@@ -130,6 +130,13 @@ def test_a_load_that_follows_turns_with_its_block() -> None:
     assert 100 * factors == pytest.approx(weight * (0.1 * np.cos(turned) - 0.5 * np.sin(turned)), abs=1e-5 * weight)
 
 
+def test_points_of_a_grid_press_by_their_areas() -> None:
+    """Those at corners and edges have less than those inside, in the rows as in a planar program."""
+    solution = pushover_of(ROCKING, "contacts.points.per_edge=4", "load_cases.push.pushover.steps=3")
+    assert len(solution.curve) == 4
+    assert max(row.residual for row in solution.curve) < 1e-6
+
+
 @pytest.mark.long
 @pytest.mark.parametrize("units", ["{length: mm}", "{length: m, force: kN}"])
 def test_the_curve_does_not_know_units(units: str, tmp_path: Path) -> None:

@@ -11,7 +11,8 @@ from mbla.solution.pushover.ends import end_failure, end_shown
 from mbla.solution.pushover.pushed import CurveEnd, CurveRow
 from tests.line import BLOCK, line_of
 
-STEP = CurveRow(0, 0.0, 1.0, float("nan"), float("nan"), 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, False, 0, 0, 0, 0)
+NAN = float("nan")
+STEP = CurveRow(0, 0.0, 1.0, NAN, NAN, NAN, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, False, 0, 0, 0, 0)
 
 
 def pushed_case(until: str = "1", steps: int = 50) -> LoadCase:

@@ -81,6 +81,9 @@ class PushoverSection(Section):
     steps: Annotated[int, Integer(ge=1, le=100_000)] = Field(500, description="steps at most")
     error: bool = Field(True, description=STEPS_OF_TWICE_THE_SIZE)
     control: ControlSection = Field(default_factory=ControlSection, description="whose displacement is counted")
+    position: Annotated[int, Integer(ge=1, le=1000)] | None = Field(
+        None, description="with `travel`: the position at which the structure is pushed, from 1; the worst unless given"
+    )
 
 
 class LoadCaseSection(Section):
@@ -122,7 +125,8 @@ class LoadCaseSection(Section):
     pushover: PushoverSection | None = Field(
         None,
         description="after limit analysis: the load factor as the structure moves by finite displacements, step by "
-        "step; loads keep their direction",
+        "step; loads keep their direction. With `tilt` the angle of the table, with `travel` at one "
+        "position",
     )
     assessment: AssessmentSection | None = Field(
         None,
@@ -217,10 +221,16 @@ def _not_pushed(case: LoadCaseSection) -> Iterator[Finding]:
     if case.live is None:
         words = "goes with live loads: a support that gives way is followed by its own amount"
         yield Finding("pushover-not-possible", words, "pushover")
-    for number, load in enumerate(case.live or []):
-        for kind in given(load, LIVE_ONLY):
-            words = "cannot go with pushover, whose loads keep their direction and their place"
-            yield Finding("pushover-not-possible", words, "live", number, kind)
+    asked = None if case.pushover is None else case.pushover.position
+    if asked is None:
+        return
+    counts = [load.travel.positions for load in case.live or [] if load.travel is not None]
+    if not counts:
+        words = "goes with a load that travels: leave it out"
+        yield Finding("key-of-another-choice", words, "pushover", "position")
+    elif asked > counts[0]:
+        words = f"must be <= {counts[0]}, the positions of the load that travels"
+        yield Finding("out-of-bounds", words, "pushover", "position")
 
 
 def _not_assessed(case: LoadCaseSection, assessment: AssessmentSection) -> Iterator[Finding]:

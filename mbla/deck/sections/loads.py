@@ -40,7 +40,7 @@ ON_ALL_BLOCKS = {"gravity": "acts on all blocks: use acceleration", "tilt": "tur
 """kinds that `on` does not apply to, and why"""
 THROUGH_FILL = ("line", "vehicle", "travel")
 """kinds that may stand on fill"""
-FOLLOWERS = ("force", "moment", "line", "pressure")
+FOLLOWERS = ("force", "moment", "line", "pressure", "travel")
 """kinds that may turn with their block in a pushover"""
 LIVE_ONLY = ("travel", "tilt")
 """kinds that make something else of a load case than a sum of loads"""
@@ -220,7 +220,7 @@ class Load(Section):
     follows: bool = Field(
         False,
         description="in a pushover: the load turns with its block, as a pressure does; else it keeps its direction. Of "
-        "force, moment, line and pressure",
+        "force, moment, line, pressure and travel",
     )
 
 

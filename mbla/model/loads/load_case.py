@@ -84,20 +84,22 @@ def build_load_cases(name: str, section: LoadCaseSection, site: LoadSite) -> tup
     live = _add_up(entries_of(section.live or [], (*path, "live"), site.named), site, live=True)
     tilt, positions = None, list[tuple[TravelPosition | None, AppliedLoad | None]]([(None, None)])
     if section.live and (table := section.live[0].tilt) is not None:  # what it turns first stands for the live load
-        tilt = tilt_loads(table, dead_loads, dead.net, path, site)
-        words = f"tilt about {vector(table.axis)}"
-        live = live.plus(AppliedLoad(np.arange(len(site.blocks)), without_levers(tilt.across), words))
+        tilt, across = tilt_loads(table, dead_loads, dead.net, path, site)
+        live = live.plus(across)
     _judge_soil(name, gravity_of(dead_loads), tilt is not None, site)
     for number, load in enumerate(section.live or []):
         if load.travel is not None:  # a rule of the deck: at most one does
-            positions = [*(travel_loads(name, Entry(load, (*path, "live", number), load.factor), site) or [])]
+            there = travel_loads(name, Entry(load, (*path, "live", number), load.factor), site) or []
+            positions = [(position, replace(each, follows=load.follows)) for position, each in there]
     sound = len(site.roster.faults) == before
     cases = []
     for position, applied in positions:
         own = live if applied is None else live.plus(applied)
         if len(site.roster.faults) == before and own.complete and section.live is not None:
             _judge_live(applied, path, own, site)
-        pushed = _pushing(name, section, dead, own, site)
+        asked = None if section.pushover is None else section.pushover.position
+        here = asked is None or position is None or position.number == asked
+        pushed = _pushing(name, section, dead, own, site) if here else None
         case = LoadCase(
             name, dead.net, own.net, dead.words, own.words, tilt=tilt, pushover=pushed, assessment=section.assessment
         )

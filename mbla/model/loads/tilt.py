@@ -19,23 +19,26 @@ from mbla.deck.sections.loads import Tilt as TiltSection
 from mbla.deck.text.tree import KeyPath
 from mbla.errors import Finding
 from mbla.model.loads.gravity import gravity_of, mass_forces
-from mbla.model.loads.load_kind import Entry, LoadSite
+from mbla.model.loads.load_kind import AppliedLoad, Entry, LoadSite
 from mbla.model.model import Tilt
 from mbla.model.solids.plane import unit
+from mbla.model.wording import vector
 
 ALONG = 1e-9
 """share of gravity across the axis, below which the axis counts as parallel to it"""
 
 
-def tilt_loads(load: TiltSection, dead: Sequence[Entry], dead_total: FloatArray, path: KeyPath, site: LoadSite) -> Tilt:
-    """What turns of the dead load, (n_blocks, 6), and how; a fault where nothing does."""
+def tilt_loads(
+    load: TiltSection, dead: Sequence[Entry], dead_total: FloatArray, path: KeyPath, site: LoadSite
+) -> tuple[Tilt, AppliedLoad]:
+    """What turns of the dead load, (n_blocks, 6), and how; a fault where nothing does. Besides, the load across."""
     axis = unit(np.array(load.axis))
     gravity = gravity_of(dead)
     others = any(entry.load.gravity is None for entry in dead)
     level = gravity - (gravity @ axis) * axis
     everywhere = np.arange(len(site.blocks))
     turning = mass_forces(everywhere, level, site)[:, :6]
-    across = mass_forces(everywhere, -np.cross(axis, gravity), site)[:, :6]
+    across = mass_forces(everywhere, -np.cross(axis, gravity), site)
     size = max(np.abs(gravity).max(), np.finfo(np.float64).tiny)  # so that squares do not overflow
     if np.linalg.norm(level / size) <= ALONG * np.linalg.norm(gravity / size):
         what = "gravity lies along the axis" if gravity.any() else "there is no gravity among the dead loads"
@@ -44,4 +47,5 @@ def tilt_loads(load: TiltSection, dead: Sequence[Entry], dead_total: FloatArray,
         name = path[-1]
         message = f"{name}: only gravity turns; the other dead loads keep their direction in the structure"
         site.warn("tilt-turns-gravity-only", message)
-    return Tilt(axis, dead_total - turning, turning, across)
+    tilt = Tilt(axis, dead_total - turning, turning, across[:, :6])
+    return tilt, AppliedLoad(everywhere, across, f"tilt about {vector(load.axis)}")

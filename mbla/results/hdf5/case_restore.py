@@ -65,6 +65,10 @@ def case_from(load_case: LoadCase, get: dict[str, Any]) -> CaseResult:
     return CaseResult(load_case, Solution(**own, **answers), Checks(**checks), Status(get["status"]))
 
 
+ENERGIES = ("live_work", "friction", "tie_work", "crushing", "potential")
+"""Columns of the rows of a pushover, in the order of their record."""
+
+
 def _pushed(get: dict[str, Any]) -> dict[str, Any]:
     """Rows of a pushover and what they follow from; nothing where there is none."""
     if "curve/step" not in get:
@@ -84,7 +88,7 @@ def _pushed(get: dict[str, Any]) -> dict[str, Any]:
         shifts=get["pushed/shift"],
         turns=get["pushed/rotation"],
         fallen=get["pushed/fallen"],
-        energies=np.column_stack([get[f"curve/{name}"] for name in ("live_work", "friction", "tie_work", "potential")]),
+        energies=np.column_stack([get[f"curve/{name}"] for name in ENERGIES]),
         errors=get["curve/error"],
         jumps=get["curve/jumps"],
         unsolved=get["curve/unsolved"],

@@ -8,7 +8,8 @@ from itertools import pairwise
 import numpy as np
 
 from mbla.arrays import evenly
-from mbla.model.model import Model
+from mbla.model.model import LoadCase, Model
+from mbla.results.listing.answers import answer_head
 from mbla.results.listing.text import MOST_ROWS, counted, full_sentence, long_table, number, sentence, small, within
 from mbla.results.listing.verdict_words import load_factor_words
 from mbla.results.outcome import curve_residual, ultimate_displacement
@@ -34,7 +35,7 @@ def curve_words(model: Model, case: CaseResult) -> str:
         says += f"the support has moved by {within(last.displacement, end)} {length}, where {words}"
     else:
         top = max(curve, key=lambda row: row.load_factor)
-        highest = load_factor_words(model, case.load_case, top.load_factor)
+        highest = row_words(model, case.load_case, top)
         says = (
             f"Pushover of {counted(len(curve) - 1, 'step')}: at most {highest} at {number(top.displacement)} {length}; "
         )
@@ -43,10 +44,7 @@ def curve_words(model: Model, case: CaseResult) -> str:
             says += f"nothing at {within(ultimate, end)} {length}"
         else:
             says += f"nothing at {number(ultimate)} {length}; " if last.load_factor < 0.0 else ""
-            says += (
-                f"{load_factor_words(model, case.load_case, last.load_factor)} at {within(last.displacement, end)} "
-                f"{length}"
-            )
+            says += f"{row_words(model, case.load_case, last)} at {within(last.displacement, end)} {length}"
             says += f", where {words}"
     errors = np.array([row.error for row in curve])
     if np.isfinite(errors).any():
@@ -94,6 +92,13 @@ def _in_space(case: CaseResult) -> bool:
     return size is not None and size.dimension == 3
 
 
+def row_words(model: Model, load_case: LoadCase, row: CurveRow) -> str:
+    """The load factor of a row as that of its load case: ``0.145 g``; of a tilting table ``9.3 degrees of tilt``."""
+    if load_case.tilt is not None:
+        return f"{number(row.angle)} degrees of tilt"
+    return load_factor_words(model, load_case, row.load_factor)
+
+
 def curve_verdict(case: CaseResult, length: str) -> str:
     """How well the steps of a pushover meet the joint law, as code that did not solve them finds."""
     residuals = [row.residual for row in case.solution.curve[1:]]
@@ -107,7 +112,8 @@ def curve_verdict(case: CaseResult, length: str) -> str:
     if not rough:
         overlap = max(row.overlap for row in case.solution.curve)
         says = f"Verified: every step meets equilibrium and the joint law to {worst:.1g}"
-        says += f", blocks overlap by {overlap:.1g} {length} at most"
+        crushes = any(row.crushing for row in case.solution.curve)
+        says += f", {'points are crushed' if crushes else 'blocks overlap'} by {overlap:.1g} {length} at most"
         missing = abs(energy_missing(case.solution.curve, _small_energy(case)))
         return (
             f"{says}." if missing < NOTABLE_MISS else f"{says}; {missing:.2g} of the energy is lost where blocks drop."
@@ -122,25 +128,30 @@ def curve_lines(model: Model, case: CaseResult) -> list[str]:
     curve, units = case.solution.curve, model.units
     if not curve:
         return []
-    settlement, tied = case.load_case.settlement, bool(len(model.ties))
-    settles, unit = settlement is not None, 1.0 if settlement is None else settlement.unit
+    settlement, tied, crushed = case.load_case.settlement, bool(len(model.ties)), any(row.crushing for row in curve)
+    unit = 1.0 if settlement is None else settlement.unit
     jumped = [row.step for row in curve if row.jumps][:MOST_ROWS]
     shown = [curve[row] for row in sorted({*evenly(len(curve), MOST_ROWS), *jumped})]
     rows = [
         [
             str(row.step),
-            *(number(value) for value in (row.displacement, row.reaction if settles else row.load_factor)),
+            *(number(value) for value in (row.displacement, row.answer)),
             *(small(value) for value in (row.error * unit, row.residual if row.step else np.nan)),
-            *(f"{value + 0.0:.4g}" for value in (row.live_work, row.friction + row.tie_work, row.potential)),
+            *(
+                f"{value + 0.0:.4g}"
+                for value in (row.live_work, row.friction + row.tie_work + row.crushing, row.potential)
+            ),
             small(energy_missing(curve[: row.step + 1], _small_energy(case)) if row.step else np.nan),
             "jump" if row.jumps else "new" if row.new_mechanism else "",
         ]
         for row in shown
     ]
-    head = ["step", f"moved [{units.length}]", f"reaction [{units.force}]" if settles else "load factor"]
-    head += ["error", "residual", "live work", "lost" if tied else "friction", "dead load", "left", "motion"]
+    head = ["step", f"moved [{units.length}]", answer_head(model, case.load_case)]
+    several = tied or crushed
+    head += ["error", "residual", "live work", "lost" if several else "friction", "dead load", "left", "motion"]
     says = [curve_words(model, case), *([] if _in_space(case) else [stiffness_words(model, case)])]
-    lost = "what is lost, in friction and by ties," if tied else "friction"
+    by = ["in friction", *(["by ties"] if tied else []), *(["by crushing"] if crushed else [])]
+    lost = f"what is lost, {' and '.join(by)}," if several else "friction"
     says.append(
         f"Work and energies in {units.force} {units.length}; left is the live work less {lost} and what the dead load "
         "gained, over the greatest of these: what elastic joints store, and what goes where blocks drop."
@@ -164,7 +175,10 @@ def _small_energy(case: CaseResult) -> float:
 
 
 def energy_missing(curve: Sequence[CurveRow], least: float = 0.0) -> float:
-    """Live work that neither friction, ties nor the dead load has taken, over the largest of these, or ``least``."""
+    """Live work that neither friction, ties, crushing nor the dead load has taken, over the largest of these, or
+    ``least``.
+    """
     last = curve[-1]
-    size = max(abs(last.live_work), last.friction, last.tie_work, abs(last.potential), least, 1e-300)
-    return (last.live_work - last.friction - last.tie_work - last.potential) / size
+    taken = last.friction, last.tie_work, last.crushing
+    size = max(abs(last.live_work), *taken, abs(last.potential), least, 1e-300)
+    return (last.live_work - sum(taken) - last.potential) / size

@@ -134,14 +134,13 @@ class Case:
     @property
     def curve(self) -> FloatArray | None:
         """Steps of the pushover, the structure as built first: displacement of the control point (of the support, where
-        one gives way) and load factor (its reaction), (n_steps + 1, 2); None where none was asked for or made.
+        one gives way) and load factor (its reaction; of a tilting table the angle in degrees), (n_steps + 1, 2); None
+        where none was asked for or made.
 
         ``record.solution.curve`` has all that is known of each step, ``curve_end`` why it ends.
         """
-        rows, settles = self.record.solution.curve, self.record.load_case.settlement is not None
-        if not rows:
-            return None
-        return np.array([[row.displacement, row.reaction if settles else row.load_factor] for row in rows])
+        rows = self.record.solution.curve
+        return np.array([[row.displacement, row.answer] for row in rows]) if rows else None
 
     @property
     def assessment(self) -> Assessment | None:

@@ -17,6 +17,7 @@ from mbla.deck import Deck
 from mbla.model import Model
 from mbla.results.outcome import WITH_VALUE, least_factor, ratio_of
 from mbla.results.results import CaseResult, Results
+from mbla.results.series import position_of, series_of, worst_known
 from mbla.results.verification.pushover import pushover_claims, pushover_differences
 from mbla.solution.flow.path_record import Stop
 from mbla.solution.flow.settings import RATIOS, ratios_beside, second_ratio
@@ -53,6 +54,20 @@ def cases_left_out(results: Results) -> tuple[str, ...]:
     """Load cases of the deck of which a file has no result, in words."""
     missing = ", ".join(results.without_result)
     return (f"the deck has load cases of which the file has no result: {missing}",) if missing else ()
+
+
+def differences_of_positions(deck: Deck, results: Results) -> Iterator[str]:
+    """Travelling loads at whose worst position, or the one that is asked for, the structure is not pushed, in words."""
+    for series in series_of(results.cases) if results.complete else ():
+        asked = deck.content.load_cases[series.name].pushover
+        if asked is None:
+            continue
+        may_be = [case for case in series.cases if asked.position in (None, position_of(case).number)]
+        wanted = [worst_known(may_be).load_case.name] if may_be else []
+        pushed = [case.load_case.name for case in series.cases if case.load_case.pushover is not None]
+        if pushed != wanted:
+            known, other = (", ".join(names) or "none" for names in (pushed, wanted))
+            yield f"{series.name}: the structure is pushed at {known}, where the deck asks for {other}"
 
 
 def differences_of_stop(results: Results) -> tuple[str, ...]:

@@ -33,7 +33,7 @@ def pushover_differences(deck: Deck, model: Model, contacts: Contacts, case: Cas
     case  : with checks, status and curve recomputed
     """
     solution, load_case = case.solution, case.load_case
-    against = why_not_pushed(model, load_case, solution, case.status is Status.SOLVED)
+    against = why_not_pushed(model, contacts, load_case, solution, case.status is Status.SOLVED)
     if solution.pushed is None:
         if not against:
             yield "the deck asks for the pushover, which the file does not have"

@@ -56,7 +56,7 @@ def _beside(case: CaseResult, again: Solution) -> PushoverAgain:
     own, late = case.solution, case.solution.curve_end is CurveEnd.LATE
     greatest = max(greatest_value(case.load_case, _column(each, "load_factor")) for each in (own, again))
     off, at = max(_off(one, other, "load_factor") for one, other in ((own, again), (again, own)))
-    energies = ("live_work", "friction", "tie_work", "potential")
+    energies = ("live_work", "friction", "tie_work", "crushing", "potential")
     size = max(float(np.abs(_column(again, name)).max()) for name in energies)
     of_energy = max(_off(own, again, name)[0] for name in energies)
     against = {

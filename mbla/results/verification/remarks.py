@@ -68,7 +68,7 @@ def remarks_found_again(deck: Deck, model: Model, contacts: Contacts, case: Case
         proved = tilt.upright >= math.tan(math.radians(tilt.angle) / 2.0)
         found += [] if proved else [NOT_PROVED_BETWEEN]
     if load_case.pushover is not None:
-        against = why_not_pushed(model, load_case, solution, case.status is Status.SOLVED)
+        against = why_not_pushed(model, contacts, load_case, solution, case.status is Status.SOLVED)
         if solution.pushed is not None and solution.mechanics is not None:
             found += pushover_remarks(model, contacts, load_case, solution)
         found += [no_pushover(against)] if against else []

@@ -21,6 +21,8 @@ from mbla.deck.sections.contacts import ContactsSection
 from mbla.errors import Message
 from mbla.model.model import LoadCase, Model
 from mbla.model.pose import Pose, turns_and_slides
+from mbla.program.build import crushable_interfaces
+from mbla.program.reductions.scene import refined
 from mbla.solution.cone_solvers.cone_solution import Log
 from mbla.solution.pushover.control import MOVES, Control
 from mbla.solution.pushover.followed import STEP_DEPENDENCE, StepErrors, step_dependence, step_errors
@@ -42,6 +44,9 @@ greatest live work of the curve from which that is said."""
 AT_REST = 1e-9
 """Speed of the control point over the greatest with which it does not move."""
 
+MORE_POINTS = "give contacts.points a per_edge or spacing"
+"""What helps where joints crush as stress blocks, and have points at their corners alone."""
+
 ALIKE = 0.9
 """Cosine between the motions to two rows below which they are two mechanisms."""
 
@@ -50,15 +55,16 @@ RESTS = "the control point does not move as the structure starts to: leave contr
 """Why a curve has no displacement."""
 
 
-def why_not_pushed(model: Model, case: LoadCase, solution: Solution, solved: bool) -> str:
+def why_not_pushed(model: Model, contacts: Contacts, case: LoadCase, solution: Solution, solved: bool) -> str:
     """What keeps a pushover from being done, in words; empty where nothing does."""
-    crush = any(np.isfinite(law.compressive_strength) for law in model.joints.values())
+    at_corners = solution.stress_blocks and _crushes_at_corners(model, contacts)
     against = {
         "the load case is not solved": not solved or solution.mechanics is None,
+        "the table collapses at no angle": case.tilt is not None and np.isnan(factor_at_start(case, solution)),
         "guided blocks turn and move besides": turns_and_slides(model.guides),
-        "joints can crush": crush,
+        f"joints can crush, which is followed at points: {MORE_POINTS}": at_corners,
         "flow_rule: livesley": solution.flow_rule == "livesley",
-        "contact_model: convex": solution.conditions_on_interfaces,
+        "contact_model: convex": solution.contact_model == "convex",
         RESTS: _rests(model, case, solution),
     }
     against |= dict.fromkeys(_above_start(case, solution), True)
@@ -76,6 +82,14 @@ def _above_start(case: LoadCase, solution: Solution) -> Iterator[str]:
         yield words + "the structure starts to move: give a lower one"
 
 
+def _crushes_at_corners(model: Model, contacts: Contacts) -> bool:
+    """Whether an interface that can crush has contact points at its corners alone."""
+    interface = contacts.interface_of_point
+    grid = refined(interface, contacts.points, contacts.frames[:, 0])
+    has_grid = np.bincount(interface, grid, len(contacts)) > 0.0
+    return bool((crushable_interfaces(model, contacts) & ~has_grid).any())
+
+
 SAME_STATE = 5e-3
 """Share of the load factor within which the least state of rigid joints is that of the path."""
 
@@ -87,6 +101,16 @@ def start_of(solution: Solution) -> Mechanics:
     if least is None or abs(least.load_factor - own.load_factor) > SAME_STATE * abs(own.load_factor):
         return own
     return least
+
+
+def factor_at_start(case: LoadCase, solution: Solution) -> float:
+    """Load factor of row 0; of a tilting table its angle in radians. nan where the structure does not start to move."""
+    if solution.mechanics is None:
+        return np.nan
+    factor = start_of(solution).load_factor
+    if case.tilt is None:
+        return factor
+    return float(np.arctan(factor) if case.tilt.tangent else np.radians(case.tilt.angle))
 
 
 def no_pushover(against: str) -> Message:
@@ -110,11 +134,11 @@ def pushed(
     model : as it may move under the load case
     tell  : told how to make the solution with the rows that are done by then
     """
-    against = why_not_pushed(model, case, solution, solved)
+    against = why_not_pushed(model, contacts, case, solution, solved)
     asked, first = case.pushover, solution.mechanics
     if against or first is None or asked is None:
         return replace(solution, remarks=(*solution.remarks, no_pushover(against)))
-    first = start_of(solution)
+    first = replace(start_of(solution), load_factor=factor_at_start(case, solution))
     structure = PushedStructure.of(model, contacts, section, case, settings.analysis.flow_rule)
     control = Control.of(model, case, first.mechanism)
     watch = _watched(log)
@@ -157,7 +181,7 @@ def _watched(log: Log) -> Callable[[int, float, bool], None]:
 
 def _row_0(model: Model, first: Mechanics) -> RecordedRow:
     none = np.zeros(len(model.blocks), dtype=np.bool_)
-    return RecordedRow(first.load_factor, Pose.at_rest(len(none)), none, (0.0, 0.0, 0.0, 0.0), RowPoints.none())
+    return RecordedRow(first.load_factor, Pose.at_rest(len(none)), none, (0.0, 0.0, 0.0, 0.0, 0.0), RowPoints.none())
 
 
 def _followed(way: Way, rows: list[RecordedRow]) -> CurveEnd:
@@ -198,7 +222,7 @@ def _recorded(row: Row) -> RecordedRow:
     )
     fallen = joints.fallen[structure.solids.label]
     energy = row.energy
-    energies = (energy.live, energy.friction, energy.ties, energy.potential)
+    energies = (energy.live, energy.friction, energy.ties, energy.crushing, energy.potential)
     return RecordedRow(row.load_factor, structure.blocks_at(row.pose), fallen, energies, found)
 
 
@@ -239,14 +263,14 @@ def pushover_remarks(model: Model, contacts: Contacts, case: LoadCase, solution:
     return (*remarks, *_step_remarks(case, solution))
 
 
-def begun_by(solution: Solution) -> Solution:
+def begun_by(case: LoadCase, solution: Solution) -> Solution:
     """The solution with the load factor at which it starts to move in row 0 of its pushover, as it must be."""
     rows = solution.pushed
     if rows is None or solution.mechanics is None:
         return solution
     factors, shifts = rows.load_factors.copy(), rows.shifts.copy()
     turns, fallen = rows.turns.copy(), rows.fallen.copy()
-    factors[0], shifts[0], turns[0], fallen[0] = start_of(solution).load_factor, 0.0, 0.0, False
+    factors[0], shifts[0], turns[0], fallen[0] = factor_at_start(case, solution), 0.0, 0.0, False
     return replace(solution, pushed=replace(rows, load_factors=factors, shifts=shifts, turns=turns, fallen=fallen))
 
 
@@ -277,13 +301,15 @@ def curve_of(
                 displacement=control.displacement(model, pose),
                 load_factor=float(factors[number]),
                 reaction=np.nan if case.settlement is None else case.settlement.reaction(float(factors[number])),
+                angle=np.nan if case.tilt is None else float(np.degrees(factors[number])),
                 error=float(rows.errors[number]),
                 residual=found[number].largest if number else begins,
                 overlap=found[number].overlap if number else 0.0,
                 live_work=float(rows.energies[number, 0]),
                 friction=float(rows.energies[number, 1]),
                 tie_work=float(rows.energies[number, 2]),
-                potential=float(rows.energies[number, 3]),
+                crushing=float(rows.energies[number, 3]),
+                potential=float(rows.energies[number, 4]),
                 new_mechanism=number > 1 and _alike(model, motions[number - 1], motions[number]) < ALIKE,
                 jumps=int(rows.jumps[number]),
                 unsolved=int(rows.unsolved[number]),
@@ -326,11 +352,16 @@ def dropped(curve: Sequence[CurveRow]) -> tuple[float, float] | None:
     falls = [
         (before.displacement, lost)
         for before, after in pairwise(curve)
-        if (lost := before.potential - after.potential - (after.tie_work - before.tie_work))
+        if (lost := before.potential - after.potential - _taken(before, after))
         > BY_ITSELF_SHARE * abs(after.live_work - before.live_work)
     ]
     lost = sum(energy for _, energy in falls)
     return (falls[0][0], lost / size) if lost > NOTABLE_DROP * size else None
+
+
+def _taken(before: CurveRow, after: CurveRow) -> float:
+    """What ties and joints that crush take from one row to the next."""
+    return after.tie_work - before.tie_work + after.crushing - before.crushing
 
 
 def _alike(model: Model, one: FloatArray, other: FloatArray) -> float:

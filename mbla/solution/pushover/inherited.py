@@ -138,7 +138,7 @@ def _balanced(
     changed[pair[n:][new]] = True
     of_pair = [_rows_of(own, count) for own in (pair[:n], pair[n:])]
     limits, force = joints.full.limits, joints.full.scaling.force
-    tension, cohesion = limits.tension * force, limits.cohesion * force
+    tension, cohesion, strength = (own * force for own in (limits.tension, limits.cohesion, limits.compression))
     stiffness = joints.structure.stiffness * joints.areas[:, None] * [1.0, joints.ratio, joints.ratio]
     stiffness[~carries] = 0.0
     found = begun.copy()
@@ -150,7 +150,7 @@ def _balanced(
         ways = _wrenches(place.at.placed.points[old], place.at.placed.frames[old], centre, size)
         wanted = np.einsum("nik,ni->k", ways, before[old])
         ways = _wrenches(at.placed.points[own], at.placed.frames[own], centre, size)
-        bounds = np.column_stack([-tension[own], limits.friction[own], cohesion[own]])
+        bounds = np.column_stack([-tension[own], limits.friction[own], cohesion[own], strength[own]])
         found[own] = _pressed(ways, begun[own], wanted, stiffness[own], bounds)
     return found
 
@@ -170,7 +170,7 @@ def _pressed(
     """Forces of points, (n, 3), from those they begin with, by motions of two bodies until what is wanted is there.
 
     ways   : (n, 3, 6) force and moment of unit forces; wanted : (6,) of all; stiffness : (n, 3)
-    bounds : (n, 3) least normal force, friction and cohesion
+    bounds : (n, 4) least normal force, friction, cohesion and greatest normal force
     """
     forces, k = begun.copy(), stiffness.copy()
     for _ in range(PASSES):
@@ -181,6 +181,8 @@ def _pressed(
         forces = forces + k * (ways @ (np.linalg.pinv(matrix, 1e-9, hermitian=True) @ missing))
         opens = forces[:, 0] < bounds[:, 0]
         forces[opens, 0], k[opens] = bounds[opens, 0], 0.0
+        crushes = forces[:, 0] > bounds[:, 3]
+        forces[crushes, 0], k[crushes, 0] = bounds[crushes, 3], 0.0
         limit = bounds[:, 2] + bounds[:, 1] * np.maximum(forces[:, 0], 0.0)
         size = np.linalg.norm(forces[:, 1:], axis=1)
         slides = size > limit

@@ -37,7 +37,8 @@ class JointsAt:
     """Joints at a pose.
 
     placed  : contact points of the surfaces
-    joints  : with A and loads of the pose
+    joints  : with A and loads of the pose, those that change with the load factor in another way than in proportion
+              to first order at the one given
     offsets : (components, n_points) displacements of the program: gap, positive where open, and slip
     ties    : there
     loads   : dead and live, (n_solids, 6) each, about the centroids
@@ -120,7 +121,7 @@ class MovedJoints:
         left = replace(there, prestress=np.zeros(len(there))).take(rows)
         model = replace(solids.model, fixed=solids.model.fixed | fallen, ties=left, load_cases=())
         solids = tied(replace(solids, model=model))
-        dead, live = structure.loads_at(pose, fallen)
+        dead, live, _ = structure.loads_at(pose, fallen, 0.0)
         loads = replace(structure.case, dead_load=dead, live_load=live)
         full = assemble(solids.model, solids.contacts, loads, own=False)
         if full.guided and full.reduction is not None:
@@ -173,16 +174,18 @@ class MovedJoints:
         """Of the program that is solved."""
         return self.reduced.n_points
 
-    def there(self, pose: Pose) -> JointsAt:
-        """The joints at a pose."""
+    def there(self, pose: Pose, factor: float) -> JointsAt:
+        """The joints at a pose, with loads for a load factor of the program."""
         placed, ties = self.touching.points.at(pose), self._of_ties.at(pose)
         centres = self.structure.solids.model.blocks.centroids + pose.shift
         data = self._map @ np.concatenate([self._entries(placed, centres), self._of_ties.entries(ties, centres)])
         matrix = self._matrix(data)
-        dead, live = self.structure.loads_at(pose, self.fallen)
-        every = dead + self._of_ties.fitted(ties, centres), live
-        loads = [each[self.full.free].ravel() for each in every]
         row, scaling = self.full.scaling.row, self.full.scaling
+        load_factor = scaling.load_factor(factor)
+        dead, live, change = self.structure.loads_at(pose, self.fallen, load_factor)
+        every = dead + self._of_ties.fitted(ties, centres), live
+        linear = every[0] + load_factor * (live - change), change
+        loads = [each[self.full.free].ravel() for each in linear]
         ways = self.ways[0].T
         program = replace(
             self.reduced,

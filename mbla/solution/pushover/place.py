@@ -19,13 +19,14 @@ class Energy:
     """J since the structure was at rest.
 
     live           : work of the live load
-    friction, ties : dissipated in sliding and by ties
+    friction, ties, crushing : dissipated in sliding, by ties and in joints that crush
     potential      : gained by the dead load
     """
 
     live: float = 0.0
     friction: float = 0.0
     ties: float = 0.0
+    crushing: float = 0.0
     potential: float = 0.0
 
     def after(self, step: PoseStep, at: JointsAt, end: FloatArray, u: FloatArray, load_factor: float) -> Energy:
@@ -45,6 +46,7 @@ class Energy:
         stored = 0.5 * (end**2 - begun**2) / (joints.length * stiffness)
         lost = (work - stored) * scaling.live
         ties = joints.is_tie
+        crushes = np.isfinite(limits.compression) & ~ties
         by = np.hstack([at.pose.shift - before.pose.shift, joints.twists(u)[:, 3:]])
         dead, live = (0.5 * float(np.vdot(one + other, by)) for one, other in zip(before.loads, at.loads, strict=True))
         mean = 0.5 * (step.factor * scaling.live + load_factor)
@@ -52,8 +54,9 @@ class Energy:
             self.live + mean * live,
             self.friction
             + float(lost[1:][:, ~ties].sum())
-            + float(np.where(at.joints.dilates, lost[0][~ties], 0.0).sum()),
+            + float(np.where(at.joints.dilates, lost[0][~ties & ~crushes], 0.0).sum()),
             self.ties + float(lost[0][ties].sum()),
+            self.crushing + float(lost[0][crushes].sum()),
             self.potential - dead,
         )
 

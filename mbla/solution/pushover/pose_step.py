@@ -134,13 +134,14 @@ class PoseStep:
         if before is not None:
             u = self.joints.displacements(twists)
             pose = self.joints.after(self.start.pose, u)
-            at = self.joints.there(pose)
+            at = self.joints.there(pose, self.factor)
             step = self._from(at, u, float(self.start.joints.program.live_load @ u))
             sigma = self._product(at) / kappa
             found = self._to(step, gone_on(step, before, share, sigma), sigma, aimed=False)
             if found is not None:
                 state, directions = found
-                return Smoothed(self.joints.there(self.joints.after(pose, state.u)), state, u + state.u, directions)
+                there = self.joints.there(self.joints.after(pose, state.u), state.factor)
+                return Smoothed(there, state, u + state.u, directions)
         return self._afresh(before, kappa) if before is None or anew else None
 
     def _afresh(self, before: StepState | None, kappa: float) -> Smoothed | None:
@@ -159,7 +160,7 @@ class PoseStep:
                 return None
             state, directions = found[0], directions + found[1]
             done += float(at.joints.program.live_load @ state.u)
-            at, u = self.joints.there(self.joints.after(at.pose, state.u)), u + state.u
+            at, u = self.joints.there(self.joints.after(at.pose, state.u), state.factor), u + state.u
             if self._size(state.u) < NEARBY:
                 return Smoothed(at, state, u, directions)
         return None
@@ -302,7 +303,8 @@ class PoseStep:
             else:
                 return best
             done += 0.0 if fixed else float(at.joints.program.live_load @ du)
-            at, u, factor = self.joints.there(self.joints.after(at.pose, du)), u + du, factor + by
+            u, factor = u + du, factor + by
+            at = self.joints.there(self.joints.after(at.pose, du), factor)
         return best
 
     def _primal(self, at: JointsAt, u: FloatArray, factor: float, done: float, number: int) -> Found | None:
@@ -327,7 +329,7 @@ class PoseStep:
         if not self._size(state.u) < 4.0 * FARTHEST:
             return None
         done += float(at.joints.program.live_load @ state.u) if self.driven else 0.0
-        there = self.joints.there(self.joints.after(at.pose, state.u))
+        there = self.joints.there(self.joints.after(at.pose, state.u), state.factor)
         return self._newton(there, u + state.u, state.factor, done)
 
     def _left(self, step: JointStep, state: StepState) -> float:

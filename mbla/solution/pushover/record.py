@@ -50,7 +50,7 @@ class PushedRows:
     load_factors : (n,)
     shifts, turns : (n, n_blocks, 3) m, rotation vectors
     fallen       : (n, n_blocks) blocks that are debris
-    energies     : (n, 4) J since the structure was at rest, as the run went: work of the live load, dissipated in
+    energies     : (n, 5) J since the structure was at rest, as the run went: work of the live load, dissipated in
                    sliding and by ties, gained by the dead load
     errors       : (n,) estimated error of the load factor, nan where it is not known
     jumps, unsolved : (n,) jumps, and rows that were not found, since the row before
@@ -98,7 +98,7 @@ class RecordedRow:
     load_factor: float
     pose: Pose
     fallen: BoolArray
-    energies: tuple[float, float, float, float]
+    energies: tuple[float, float, float, float, float]
     points: RowPoints
     jumps: int = 0
     unsolved: int = 0

@@ -36,7 +36,7 @@ def renewed(place: Place, is_over: Callable[[BoolArray], bool], falls: BoolArray
     fallen = joints.fallen if falls is None else joints.fallen | falls
     while not is_over(fallen):
         there = MovedJoints.at_pose(structure, place.pose, fallen, broken, joints.ratio, (joints, place.history))
-        at = there.there(place.pose)
+        at = there.there(place.pose, place.factor / there.full.scaling.live)
         history, state = inherited(place, there, at)
         hanging = _hanging(there, history)
         if not hanging.any():

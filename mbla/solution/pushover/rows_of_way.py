@@ -10,6 +10,8 @@ from collections.abc import Generator
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from mbla.solution.pushover.place import Place, Row
 from mbla.solution.pushover.pose_step import PoseStep, Smoothed
 from mbla.solution.pushover.pushed import CurveEnd
@@ -64,7 +66,7 @@ class RowsOfWay:
         way, moved = self.of, self.of.displacement(after.pose)
         self.way += step.work
         self.target = self.target or way.step
-        if after.factor > BLOCKED * abs(way.first.load_factor) and not way.settles:
+        if after.factor > self._blocked and not way.settles:
             highest = None if self.peak is None else way.row(*self.peak)
             if highest is not None and highest.load_factor > HIGHER * self.last and self.count < way.steps:
                 self.count += 1
@@ -144,6 +146,11 @@ class RowsOfWay:
         ends = CurveEnd.FACTOR_REACHED if self.of.until_load_factor else CurveEnd.NOTHING_LEFT
         return ends if self._is_at_end(row.load_factor) else None
 
+    @property
+    def _blocked(self) -> float:
+        """Load factor from which something blocks the way: of a tilting table its angle, half a turn."""
+        return BLOCKED * abs(self.of.first.load_factor) if self.of.structure.case.tilt is None else np.pi
+
     def _is_at_end(self, factor: float) -> bool:
         """Whether a load factor has fallen to its end, above which it has been; of a reaction that is no end."""
         asked = self.of.until_load_factor
@@ -175,7 +182,7 @@ class RowsOfWay:
             if not 0.0 < share < FURTHER:
                 break
             part, u = replace(step, work=share * step.work), share * found.u
-            there = step.joints.there(step.joints.after(step.start.pose, u))
+            there = step.joints.there(step.joints.after(step.start.pose, u), found.state.factor)
             row = way.row(part, replace(found, at=there, u=u), place)
             if row is None:
                 break

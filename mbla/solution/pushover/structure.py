@@ -16,6 +16,7 @@ from mbla.model.model import LoadCase, Model
 from mbla.model.pose import Pose, moved_case, moved_model
 from mbla.model.ties.moved import moved_ties
 from mbla.model.ties.ties import NO_TIES, Ties
+from mbla.program.reductions.scene import refined
 
 SAG = 1e-6
 """Overlap of two blocks under the weight of one, over the size of a block: 1e10 Pa/m for blocks of half a metre."""
@@ -48,6 +49,7 @@ class PushedStructure:
         model: Model, contacts: Contacts, section: ContactsSection, case: LoadCase, flow_rule: str
     ) -> PushedStructure:
         """From contacts as built."""
+        case = case if case.tilt is None else replace(case, live_load=case.tilt.across)
         solids = solids_of(replace(model, ties=NO_TIES), contacts)
         numbers = _numbers(solids.contacts.bodies, _n_bodies(solids.model))
         pairs, place = np.unique(numbers, return_inverse=True)
@@ -90,14 +92,26 @@ class PushedStructure:
         arms = np.einsum("nij,nj->ni", pose.rotation[self.solids.label], self.solids.arms)
         return replace(self.solids, model=moved_model(self.solids.model, pose), contacts=contacts, arms=arms)
 
-    def loads_at(self, pose: Pose, fallen: BoolArray) -> tuple[FloatArray, FloatArray]:
-        """Dead and live load on the solids there, (n_solids, 6) each, without those of debris, (n_solids,)."""
+    def loads_at(self, pose: Pose, fallen: BoolArray, load_factor: float) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Dead and live load on the solids there, (n_solids, 6) each, and the change of all loads with the load factor.
+
+        Without those of debris, (n_solids,). The change is the live load, but for a tilting table at the angle λ::
+
+            fixed + cos λ turning + λ (sin λ / λ) across,     change −sin λ turning + cos λ across
+        """
         case = moved_case(self.case, self.blocks_at(pose))
         arms = np.einsum("nij,nj->ni", pose.rotation[self.solids.label], self.solids.arms)
         solids = replace(self.solids, arms=arms)
-        dead, live = solids.loads(case.dead_load), solids.loads(case.live_load)
-        dead[fallen], live[fallen] = 0.0, 0.0
-        return dead, live
+        if case.tilt is None:
+            dead, live = solids.loads(case.dead_load), solids.loads(case.live_load)
+            dead[fallen], live[fallen] = 0.0, 0.0
+            return dead, live, live
+        tilt, cos, sin = case.tilt, np.cos(load_factor), np.sin(load_factor)
+        dead = solids.loads(tilt.fixed + cos * tilt.turning)
+        live = solids.loads(np.sinc(load_factor / np.pi) * tilt.across)
+        change = solids.loads(cos * tilt.across - sin * tilt.turning)
+        dead[fallen], live[fallen], change[fallen] = 0.0, 0.0, 0.0
+        return dead, live, change
 
     def ties_at(self, pose: Pose) -> Ties:
         """Ties there."""
@@ -120,16 +134,25 @@ class PushedStructure:
     def areas_of(self, touching: Touching) -> FloatArray:
         """Area that each contact point is as stiff as, (n_points,) m²: what two solids share as built, by their points.
 
-        Two solids that meet only later are as stiff as others in the mean.
+        Two solids that meet only later are as stiff as others in the mean. Corners share it equally, points of a grid
+        by their areas.
         """
         contacts = touching.contacts
         numbers = _numbers(contacts.bodies, _n_bodies(self.solids.model))
         row = np.minimum(np.searchsorted(self.pairs, numbers), len(self.pairs) - 1)
         of_pair = np.where(self.pairs[row] == numbers, self.areas[row], self.areas.mean())
         pair, place = np.unique(numbers, return_inverse=True)
-        of_point = place.ravel()[contacts.interface_of_point]
-        count = np.bincount(of_point, minlength=len(pair))
-        return np.asarray(of_pair[contacts.interface_of_point] / np.maximum(count, FEWEST)[of_point])
+        interface = contacts.interface_of_point
+        of_point = place.ravel()[interface]
+        shares = (1.0 / np.maximum(np.bincount(of_point, minlength=len(pair)), FEWEST))[of_point]
+        grid = refined(interface, contacts.points, contacts.frames[:, 0])
+        if grid.any():
+            equal = (contacts.areas / np.maximum(np.diff(contacts.point_start), 1))[interface]
+            own = np.where(grid, contacts.point_areas, equal)
+            of_grid = np.bincount(of_point, grid, len(pair))[of_point] > 0.0
+            whole = np.bincount(of_point, own, len(pair))[of_point]
+            shares = np.where(of_grid & (whole > 0.0), own / np.maximum(whole, 1e-300), shares)
+        return np.asarray(of_pair[interface] * shares)
 
 
 FEWEST = 4

@@ -46,7 +46,7 @@ LARGEST = 0.02
 """Greatest motion of a solid over its size in a step, and rotation."""
 
 SHORTER, TRIES = 0.5, 4
-"""A step over one that is blocked, and such steps in turn with κ as it is, with SOFT, and before the structure jumps."""
+"""A step over one that is blocked; such steps in turn with κ as it is, then with SOFT, before the structure jumps."""
 
 SMOOTHING, SOFT, EASY, EASIER = 5.0, 0.5, 3, 1.2
 """κ, and that of steps after ones that are blocked; directions of a step after which κ rises, and by how much."""
@@ -58,7 +58,7 @@ AT_BREAK = 0.05
 """Step in which a tie breaks over the one before, at most."""
 
 LOST = 0.1
-"""Load factor that a jump takes at most, over that at which the structure starts to move: with more it goes on by itself."""
+"""Load factor that a jump takes at most, over that at which the structure starts to move; with more the curve ends."""
 
 JUMPS, LESS = 3, 0.2
 """Jumps in turn that may come to nothing, and the step of one over that of the one before."""
@@ -178,7 +178,7 @@ class Way:
         joints = MovedJoints.at_pose(structure, pose, none, ties.broken(structure.model.ties), RATIO)
         slips = np.zeros((joints.components - 1, joints.n_points))
         history = History(np.zeros((joints.components, joints.n_points)), slips)
-        at = joints.there(pose)
+        at = joints.there(pose, 0.0)
         step = PoseStep(joints, history, at, 0.0, 0.0, driven=self.settles)
         found = step.solved()
         self.spent += step.spent
@@ -241,7 +241,8 @@ class Way:
         joints = place.joints
         step = PoseStep(joints, place.history, place.at, place.factor / joints.full.scaling.live, work)
         share = work / place.work if place.work else 0.0
-        found = step.smoothed(turned_on(place.twists, share), place.state, share, self.kappa, anew=tries % TRIES >= WARM or tries == TRIES)
+        anew = tries >= WARM
+        found = step.smoothed(turned_on(place.twists, share), place.state, share, self.kappa, anew=anew)
         self.spent += step.spent
         return step, found
 

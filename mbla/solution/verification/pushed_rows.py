@@ -192,9 +192,11 @@ def _off_law(
 def _unbalanced(
     model: Model, solids: Solids, there: _Moved, case: LoadCase, pose: Pose, factor: float, fallen: BoolArray
 ) -> FloatArray:
-    """Loads on the solids there, (n_solids, 6), about their centroids."""
+    """Loads on the solids there, (n_solids, 6), about their centroids; of a tilting table at the angle ``factor``."""
     moved = moved_case(case, pose)
     loads = moved.dead_load + factor * moved.live_load
+    if moved.tilt is not None:
+        loads = moved.tilt.loads_at(float(np.degrees(factor)))
     loads[fallen] = 0.0
     centres = (model.blocks.centroids + pose.shift) - there.centroids[solids.label]
     loads[:, 3:] += np.cross(centres, loads[:, :3])

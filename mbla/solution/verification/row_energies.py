@@ -33,20 +33,20 @@ def energy_failure(case: LoadCase, rows: PushedRows) -> str:
 
     rows : of which the first is the structure as it starts to move
     """
-    live, friction, ties, potential = rows.energies.T
+    live, friction, ties, crushing, potential = rows.energies.T
     works = _works(case, rows)
     room = room_of(case, rows)
     off = {
         "live work": np.abs(live - works[:, 0]) - works[:, 1],
         "energy that the dead load gains": np.abs(potential - works[:, 2]),
-        "energy that friction and ties take": friction + ties + potential - live,
+        "energy that friction, ties and crushing take": friction + ties + crushing + potential - live,
     }
     for name, by in off.items():
         if not by.max() <= room:
             return f"the {name} up to step {int(by.argmax())} of the pushover is not that of its poses and load factors"
-    for name, taken in (("friction", friction), ("ties", ties)):
+    for name, taken in (("by friction", friction), ("by ties", ties), ("by crushing", crushing)):
         if not np.diff(taken).min(initial=0.0) >= -room:
-            return f"what {name} dissipate{'s' * (name == 'friction')} does not grow along the pushover"
+            return f"what is dissipated {name} does not grow along the pushover"
     return ""
 
 
@@ -58,26 +58,35 @@ def room_of(case: LoadCase, rows: PushedRows) -> float:
 
 
 def energy_lost(case: LoadCase, rows: PushedRows) -> float:
-    """Live work that neither friction, ties nor the dead load has taken at the last row, over the greatest of these.
+    """Live work that neither friction, ties, crushing nor the dead load has taken at the last row, over the greatest.
 
     0 where it is no more than energies may be off.
     """
-    live, friction, ties, potential = rows.energies[-1]
-    lost = float(live - friction - ties - potential)
+    live, friction, ties, crushing, potential = rows.energies[-1]
+    lost = float(live - friction - ties - crushing - potential)
     return lost / float(np.abs(rows.energies[-1]).max()) if lost > room_of(case, rows) else 0.0
 
 
 def _works(case: LoadCase, rows: PushedRows) -> FloatArray:
     """Live work, what it may be off, and what the dead load gains, J since row 0, (n, 3)."""
     found, poses, factors = [np.zeros(3)], list(rows.poses), rows.load_factors
-    loads = [moved_case(case, pose) for pose in poses]
+    loads = [_loads(moved_case(case, pose), factor) for pose, factor in zip(poses, factors, strict=True)]
     for row, (before, after) in enumerate(pairwise(poses)):
         by = before.motion_to(after)
-        live = 0.5 * float(np.vdot(loads[row].live_load + loads[row + 1].live_load, by))
-        dead = 0.5 * float(np.vdot(loads[row].dead_load + loads[row + 1].dead_load, by))
+        dead, live = (0.5 * float(np.vdot(p + q, by)) for p, q in zip(loads[row], loads[row + 1], strict=True))
         mean, apart = 0.5 * (factors[row] + factors[row + 1]), 0.5 * abs(factors[row + 1] - factors[row])
         found.append(np.array([mean * live, apart * abs(live), -dead]))
     return np.asarray(np.cumsum(found, axis=0))
+
+
+def _loads(case: LoadCase, load_factor: float) -> tuple[FloatArray, FloatArray]:
+    """Dead load and live load per unit of the load factor, (n_blocks, 6); of a table turned by that angle, what gravity
+    does upright and across.
+    """
+    if case.tilt is None:
+        return case.dead_load, case.live_load
+    share = np.sin(load_factor) / load_factor if load_factor else 1.0
+    return case.tilt.fixed + np.cos(load_factor) * case.tilt.turning, share * case.tilt.across
 
 
 def _stored(rows: PushedRows) -> float:

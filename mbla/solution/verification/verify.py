@@ -21,6 +21,7 @@ from mbla.program.assemble import yield_limits
 from mbla.solution.glued import model_of, rule_of, solution_on_solids
 from mbla.solution.solution import Checks, Solution, Standing, Status
 from mbla.solution.verification.case import Case
+from mbla.solution.verification.elastic_law import elastic_residual
 from mbla.solution.verification.further_claims import (
     least_check,
     lock_failures,
@@ -99,7 +100,7 @@ def _verify(model: Model, contacts: Contacts, load_case: LoadCase, solution: Sol
 def residual_of(model: Model, contacts: Contacts, load_case: LoadCase, solution: Solution, part: str) -> float:
     """By how much forces and mechanism of a part of a solution violate the joint law at most, by the rule of that part.
 
-    NaN where nothing moves.
+    Of elastic joints their own law. NaN where nothing moves.
     """
     solids = tied(solids_of(model, contacts, load_case))
     of_solids, _ = solution_on_solids(solution, solids)
@@ -111,7 +112,9 @@ def residual_of(model: Model, contacts: Contacts, load_case: LoadCase, solution:
     case = Case(*parts)
     if mechanics.interface_motions is not None:
         case = InterfaceCase(*parts, model_of(part, solution), rule)
-    return residuals_of(case, mechanics, case.limits.dilatancy_by(rule)).largest
+    dilatancy = case.limits.dilatancy_by(rule)
+    elastic = elastic_residual(case, mechanics, dilatancy)
+    return residuals_of(case, mechanics, dilatancy).largest if np.isnan(elastic) else elastic
 
 
 def locked_with_normality(model: Model, contacts: Contacts, load_case: LoadCase, solution: Solution) -> bool:
