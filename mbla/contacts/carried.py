@@ -1,9 +1,10 @@
 """Contact points carried along by the blocks that touch there: where they are at any pose, and how far apart.
 
-A contact point is a material point of one body, the *slave*, on a face of the other, the *host*, whose frame turns with
-it. Its offset, the place of the point of b from that of a in that frame, is the gap across and the slip along. A force
-that acts at the slave's point does on both bodies the work of the offset exactly, so that the equilibrium matrix there
-is the derivative of the offsets by the poses::
+A contact point is a material point of one body, the *slave*, the one whose corner it is, on a face of the other, the
+*host*, whose normal it has and whose frame turns with it: the gap is the distance from that face wherever the point
+slides. Its offset, the place of the point of b from that of a in that frame, is the gap across and the slip along. A
+force that acts at the slave's point does on both bodies the work of the offset exactly, so that the equilibrium matrix
+there is the derivative of the offsets by the poses::
 
     w = F (x_b − x_a),    dw = Aᵀ du
 

@@ -6,6 +6,10 @@ of the contact, and every corner of what they share is a contact point with its 
 there with its sign. The normal is that of the face on which an edge of the other block stands, and the mean of both
 where both have an edge there. A point outside of what they share would hold a block that nothing holds.
 
+Bodies that press on each other overlap a little, and so do then the faces beside their joint, along a strip as wide as
+that: where such a strip is all that two faces share, or where they share less in width than in depth, other faces keep
+the bodies apart. Taken for contacts, such faces jam vaults.
+
 With blocks where they were built these are the contacts that :mod:`mbla.contacts.search` finds: what gaps there within
 the tolerance touches, and the gap in the middle of two facets then counts as none later as well. Facets that share an
 edge there, at an angle, are no contact then nor later.

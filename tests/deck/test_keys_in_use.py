@@ -23,6 +23,7 @@ UNUSED: dict[str, str] = {
     "MeshItem": "weld",
     "OutputSection": "plots positions",
     "PathOfJoints": "ratio",
+    "PushoverSection": "position",
     "PublishedScheme": "averaging max_programs",
 }
 """Type -> keys that no deck gives. A new key belongs into a deck; one of these that a deck takes up leaves the list."""

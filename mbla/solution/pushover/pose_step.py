@@ -8,8 +8,10 @@ step, so that a load factor has no error of the length of its step::
 
 The pose is expected to be where the step before leads on to, velocities turned with their solids. From there a step of
 elastic joints (:mod:`mbla.solution.law.joint_step`) makes up for what changes in contacts. *Smoothed*, its products
-stay at σ: most steps take one direction from the state before. *Solved*, the law holds as it is: Newton's method
-with the exact derivative, or ever smaller products where that comes to nothing.
+stay at σ: most steps take one direction from the state before. Where that is blocked, forces stay and openings are made
+as wide as solids may move, so that products are large at first and fall: joints that open and slide of a sudden are
+found in a dozen directions. *Solved*, the law holds as it is: Newton's method with the exact derivative, or ever
+smaller products where that comes to nothing.
 """
 
 from __future__ import annotations
@@ -22,12 +24,12 @@ from mbla.arrays import FloatArray
 from mbla.model.pose import paths_of
 from mbla.solution.flow.peak_step import centred
 from mbla.solution.law.elastic_joints import Memory, StepState, lengths, within
-from mbla.solution.law.joint_equations import JointStep, products_of, residual_of
+from mbla.solution.law.joint_equations import JointStep, residual_of
 from mbla.solution.law.joint_step import aimed_direction, direction_of, length_of
 from mbla.solution.pushover.geometric_stiffness import geometric
 from mbla.solution.pushover.law_at_pose import law
 from mbla.solution.pushover.moved_joints import History, JointsAt, MovedJoints
-from mbla.solution.pushover.step_states import gone_on, on_central_path
+from mbla.solution.pushover.step_states import below_strength, gone_on, on_central_path
 from mbla.solution.thresholds import SOLVED_RESIDUAL
 
 BALANCED, WORKS = 1e-6, 1e-6
@@ -49,13 +51,18 @@ ROUNDS, NEAR = 4, (5e-3, 2e-7)
 """Poses at which ever smaller products are gone through, one from the other, and unbalanced force of the law itself
 from which Newton's method goes on, at the first pose and at the others."""
 
-OVERLAP, WIDE, INSIDE, LATER, LEAST, DIRECTIONS = 0.1, 0.1, 0.9, 1e-3, 1e-13, 30
-"""Products with which a step begins over mean force times elastic overlap, or times a share of the live displacement
-where that is more; at the poses that follow, and at last; directions at most."""
+WIDE, INSIDE = 0.1, 0.9
+"""Products with which a smoothed step begins afresh, over mean force times size; share of its limit that shear then has
+at most."""
 
-LOOSE, REACHED, FEW, CLOSE, EVEN = 1e-3, 0.5, 5, 3.0, 30.0
-"""Unbalanced force with which a smoothed step is done, reach of its last direction, directions from the state before,
-mean product over σ from which it is smoothed as wanted, and greatest with which it is even."""
+OVERLAP, LATER, LEAST, DIRECTIONS = 0.1, 1e-3, 1e-13, 30
+"""Products with which a step that is solved begins over mean force times elastic overlap, or times a share of the live
+displacement where that is more; at the poses that follow, and at last; directions at most."""
+
+LOOSE, CLOSED, REACHED, FEW, CLOSE, EVEN = 1e-3, 0.1, 0.5, 5, 3.0, 30.0
+"""Unbalanced force with which a smoothed step is done, openings and slips over elastic overlap that do not fit its
+motion, reach of its last direction, directions from the state before, mean product over σ from which it is smoothed as
+wanted, and greatest with which it is even."""
 
 
 @dataclass(frozen=True)
@@ -153,7 +160,7 @@ class PoseStep:
                 found = self._to(step, gone_on(step, state, 0.0, sigma), sigma, aimed=False)
             if found is None:
                 state = on_central_path(step, sigma, self.factor) if state is None else state
-                state = replace(state, u=np.zeros_like(u))
+                state = replace(state, u=np.zeros_like(u), normal=below_strength(step.joints, state.normal))
                 wide = WIDE * self._force(at) * self.joints.structure.size
                 found = self._to(step, centred(step.joints, state, wide, INSIDE), sigma, aimed=True)
             if found is None:
@@ -180,7 +187,7 @@ class PoseStep:
         for number in range(ROUNDS):
             if best is not None and best.solved:
                 break
-            found = self._primal(at, u, factor, done, number)
+            found = self._primal(at, u, factor, done, number, None if near is None or number else near.state)
             if found is None:
                 break
             best = found if best is None or found.measure < best.measure else best
@@ -243,8 +250,8 @@ class PoseStep:
 
         aimed : whether products are larger at first and choose by how much they fall
         """
+        residual, fits = residual_of(step, state), CLOSED * self._force(self.start) / self.joints.length
         for number in range(1, (DIRECTIONS if aimed else FEW) + 1):
-            residual = residual_of(step, state)
             last = not aimed or residual.products.mean(step.joints) < CLOSE * sigma
             found = direction_of(step, state, residual, sigma) if last else aimed_direction(step, state, residual)
             self.spent += 1
@@ -253,10 +260,10 @@ class PoseStep:
             state = state.plus(found[0], length_of(found[1]))
             if not aimed and not self._size(state.u) < FARTHEST:
                 return None
-            if not last or found[1] < REACHED:
-                continue
-            balance, products = step.joints.unbalanced(state) - step.held * state.u, products_of(step.joints, state)
-            if float(np.abs(balance).max()) < LOOSE and float(products.normal.max(initial=0.0)) < EVEN * sigma:
+            residual = residual_of(step, state)
+            off = max(float(np.abs(each).max(initial=0.0)) for each in (residual.normal, residual.shear))
+            done = last and found[1] >= REACHED and off < fits and float(np.abs(residual.balance[:-1]).max()) < LOOSE
+            if done and float(residual.products.normal.max(initial=0.0)) < EVEN * sigma:
                 return (state, number) if self._size(state.u) < FARTHEST else None
         return None
 
@@ -307,14 +314,18 @@ class PoseStep:
             at = self.joints.there(self.joints.after(at.pose, du), factor)
         return best
 
-    def _primal(self, at: JointsAt, u: FloatArray, factor: float, done: float, number: int) -> Found | None:
-        """Ever smaller products at a pose, and Newton's method from where they lead."""
+    def _primal(
+        self, at: JointsAt, u: FloatArray, factor: float, done: float, number: int, before: StepState | None
+    ) -> Found | None:
+        """Ever smaller products at a pose, from a smoothed state where there is one, and Newton's method from there."""
         step, force = self._from(at, u, done), self._force(at)
         overlap = force / self.joints.length
         sigma = LATER * force * overlap if number else OVERLAP * force * max(overlap, OVERLAP * self._moved(at))
         if not self.driven and not number:
             sigma = force * overlap
         state = on_central_path(step, sigma, factor)
+        if before is not None:
+            state = gone_on(step, replace(before, factor=factor), 0.0, LATER * force * overlap)
         for count in range(DIRECTIONS):
             residual = residual_of(step, state)
             if residual.products.mean(step.joints) < LEAST * force * overlap:

@@ -164,27 +164,31 @@ class RowsOfWay:
         """The row of a part of a step at a displacement of the control point; without one at a load factor, the one
         asked for unless given. None where no row is found.
         """
-        way, best = self.of, self.of.row(step, found, place)
-        if best is None:
-            return None
-        end = way.until_load_factor if factor is None else factor
+        way, end = self.of, self.of.until_load_factor if factor is None else factor
         size = max(abs(place.factor), abs(end), 1e-300) if goal is None else goal
 
         def value(row: Row) -> float:
             return row.load_factor - end if goal is None else way.displacement(row.pose) - goal
 
+        def of_part(share: float) -> Row | None:
+            part, u = replace(step, work=share * step.work), share * found.u
+            there = step.joints.there(step.joints.after(step.start.pose, u), found.state.factor)
+            return way.row(part, replace(found, at=there, u=u), place)
+
         begun = place.factor - end if goal is None else way.displacement(place.pose) - goal
-        low, high = (0.0, begun), (1.0, value(best))
+        moved = 0.0 if goal is None else way.displacement(found.at.pose) - goal
+        share = begun / (begun - moved) if begun < 0.0 < moved else 1.0  # as far as the smoothed step goes by there
+        best = of_part(share) if share < 1.0 else None
+        if best is None:
+            share, best = 1.0, way.row(step, found, place)
+        if best is None:
+            return None
+        low, high = (0.0, begun), (share, value(best))
         for _ in range(SEARCHES):
             if abs(value(best)) <= AT_END * size or high[1] == low[1]:
                 break
             share = low[0] - low[1] * (high[0] - low[0]) / (high[1] - low[1])
-            if not 0.0 < share < FURTHER:
-                break
-            part, u = replace(step, work=share * step.work), share * found.u
-            there = step.joints.there(step.joints.after(step.start.pose, u), found.state.factor)
-            row = way.row(part, replace(found, at=there, u=u), place)
-            if row is None:
+            if not 0.0 < share < FURTHER or (row := of_part(share)) is None:
                 break
             best, now = row, value(row)
             low, high = ((share, now), high) if now * high[1] < 0.0 else (low, (share, now))

@@ -6,8 +6,9 @@ from dataclasses import replace
 
 import numpy as np
 
+from mbla.arrays import FloatArray
 from mbla.solution.flow.peak_step import with_openings
-from mbla.solution.law.elastic_joints import StepState, lengths, smoothed_margin
+from mbla.solution.law.elastic_joints import ElasticJoints, StepState, lengths, smoothed_margin
 from mbla.solution.law.joint_equations import JointStep
 
 
@@ -29,14 +30,21 @@ BEYOND = 1.0 + 1e-7
 """Speed over slip of a joint that slides against its friction."""
 
 
+def below_strength(joints: ElasticJoints, normal: FloatArray) -> FloatArray:
+    """Normal forces, (n_points,), of which none crushes its joint."""
+    limits, crushable = joints.program.limits, joints.crushable
+    found = normal.copy()
+    middle = 0.5 * (limits.compression - limits.tension)[crushable]
+    found[crushable] = np.minimum(found[crushable], np.maximum(middle, 0.95 * limits.compression[crushable]))
+    return found
+
+
 def on_central_path(step: JointStep, sigma: float, factor: float) -> StepState:
     """State without motion that fulfils the smoothed law of a step."""
     joints, memory, limits = step.joints, step.memory, step.joints.program.limits
     k_n, k_t = joints.normal * step.length, joints.shear * step.length
     normal = smoothed_margin(memory.normal + limits.tension, sigma * k_n) - limits.tension
-    crushable = joints.crushable
-    middle = 0.5 * (limits.compression - limits.tension)[crushable]
-    normal[crushable] = np.minimum(normal[crushable], np.maximum(middle, 0.95 * limits.compression[crushable]))
+    normal = below_strength(joints, normal)
     limit, size = joints.limit(normal), lengths(memory.shear)
     low, high = np.zeros_like(size), np.minimum(size, limit)
     for _ in range(50):

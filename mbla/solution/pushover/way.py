@@ -5,8 +5,8 @@ joints take at a tenth of the dead load: the first are those of the path of elas
 that is asked of the control point, as long as no solid moves or turns far in one. A row of the curve is a step that is
 solved from where its smoothed one has led; the way goes on from the smoothed one.
 
-Where a step is blocked it is made shorter, then with larger products, which let the structure slip past; then it jumps
-(:mod:`mbla.solution.pushover.jump`).
+Where a step is blocked it is made shorter, and begun afresh; then with larger products, which let the structure slip
+past; then it jumps (:mod:`mbla.solution.pushover.jump`).
 """
 
 from __future__ import annotations
@@ -45,14 +45,15 @@ LONGER, LONG, OF_WAY = {1: 2.0, 2: 2.0, 3: 1.4, 4: 1.4}, 1.0, 0.25
 LARGEST = 0.02
 """Greatest motion of a solid over its size in a step, and rotation."""
 
-SHORTER, TRIES = 0.5, 4
-"""A step over one that is blocked; such steps in turn with κ as it is, then with SOFT, before the structure jumps."""
+SHORTER, SHARP, TRIES = 0.5, 2, 4
+"""A step over one that is blocked; blocked steps in turn after which one begins afresh where the state before does not
+lead to its end, and from which κ is SOFTEST; the structure jumps after as many more."""
 
-SMOOTHING, SOFT, EASY, EASIER = 5.0, 0.5, 3, 1.2
-"""κ, and that of steps after ones that are blocked; directions of a step after which κ rises, and by how much."""
+SMOOTHING, SOFT, SOFTEST = 50.0, 5.0, 0.5
+"""κ, its most where SHARP steps in turn were blocked, and where TRIES were."""
 
-WARM = 1
-"""Shorter steps from the state before, before they begin at rest besides."""
+EASY, EASIER = 3, 1.5
+"""Directions of a step after which κ rises again, and by how much."""
 
 AT_BREAK = 0.05
 """Step in which a tie breaks over the one before, at most."""
@@ -66,6 +67,21 @@ JUMPS, LESS = 3, 0.2
 TAKEN = 0.2
 """Weight of falling blocks over that of the control point, or of what moves at first with a support that gives way,
 from which the curve is at its end."""
+
+
+@dataclass
+class Attempts:
+    """Steps from one place that are blocked in turn.
+
+    work  : live work of the next
+    asked : of the first
+    tries, jumps : steps that were blocked since the last jump, jumps that came to nothing
+    """
+
+    work: float
+    asked: float = 0.0
+    tries: int = 0
+    jumps: int = 0
 
 
 @dataclass
@@ -111,8 +127,7 @@ class Way:
             yield CurveEnd.STUCK
             return
         rows = RowsOfWay(self, self._unit(place), self.first.load_factor)
-        work, tries, again = FIRST * rows.unit, 0, 0
-        asked = work
+        attempts = Attempts(FIRST * rows.unit)
         while True:
             if self.deadline is not None and time.monotonic() > self.deadline:
                 yield CurveEnd.LATE
@@ -121,42 +136,51 @@ class Way:
             if self.is_over(place.joints.fallen):
                 yield self.fall
                 return
-            asked = work if tries == 0 else asked
-            step, found = self._stepped(place, work, tries)
+            step, found = self._stepped(place, attempts)
             factor = place.factor if found is None else step.joints.full.scaling.load_factor(found.state.factor)
             self.watch(rows.count + 1, factor, found is not None)
             if found is None:
-                tries, work = tries + 1, SHORTER * work
-                if tries == TRIES:
-                    work, self.kappa = asked, SOFT
-                elif tries == 2 * TRIES:
-                    jumped, tries, work, self.kappa = self._jumped(place, asked), 0, asked, SMOOTHING
-                    if isinstance(jumped, Place):
-                        place, again = jumped, 0
-                    elif again == JUMPS or jumped is not None or not asked:
-                        yield jumped or CurveEnd.STUCK
-                        return
-                    else:
-                        asked, again = LESS * asked, again + 1
-                        work = asked
+                past = self._past(place, attempts)
+                if isinstance(past, CurveEnd):
+                    yield past
+                    return
+                place = past
                 continue
             after = place_after(step, found, place)
-            if self._breaks(place, after) and work > AT_BREAK * place.work:
-                work *= SHORTER
+            if self._breaks(place, after) and step.work > AT_BREAK * place.work:
+                attempts.work *= SHORTER
                 continue
-            tries, again = 0, 0
             ended = yield from rows.of_step(step, found, place, after)
             if ended is not None:
                 yield ended
                 return
-            work = self._next(place, after, found, work, rows)
+            attempts = Attempts(self._next(place, after, found, step.work, rows))
             if found.directions <= EASY:
                 self.kappa = min(SMOOTHING, EASIER * self.kappa)
             place = after
 
+    def _past(self, place: Place, attempts: Attempts) -> Place | CurveEnd:
+        """Where to go on from where a step is blocked: there with another one, or behind a jump; else why not."""
+        attempts.tries, attempts.work = attempts.tries + 1, SHORTER * attempts.work
+        if attempts.tries == SHARP:
+            self.kappa = min(self.kappa, SOFT)
+        if attempts.tries == TRIES:
+            attempts.work, self.kappa = attempts.asked, SOFTEST
+        if attempts.tries < 2 * TRIES:
+            return place
+        jumped = self._jumped(place, attempts.asked)
+        self.kappa, attempts.tries = SOFT, 0
+        if isinstance(jumped, Place):
+            attempts.jumps, attempts.work = 0, attempts.asked
+            return jumped
+        if attempts.jumps == JUMPS or jumped is not None or not attempts.asked:
+            return jumped or CurveEnd.STUCK
+        attempts.jumps, attempts.work = attempts.jumps + 1, LESS * attempts.asked
+        return place
+
     def _jumped(self, place: Place, work: float) -> Place | CurveEnd | None:
         """Where the structure rests again, or why it does not; None where that is not found."""
-        jumped = jump(place, work, SMOOTHING, self.is_over)
+        jumped = jump(place, work, SOFT, self.is_over)
         self.spent += jumped.spent
         there = jumped.place
         if there is None:
@@ -236,12 +260,14 @@ class Way:
         far = greatest_motion(place.joints, place.joints.twists(motion))
         return abs(float(program.live_load @ motion)) * min(1.0, LARGEST / max(far, 1e-300))
 
-    def _stepped(self, place: Place, work: float, tries: int) -> tuple[PoseStep, Smoothed | None]:
-        """A smoothed step of a live work from a place, as the one before led there."""
-        joints = place.joints
+    def _stepped(self, place: Place, attempts: Attempts) -> tuple[PoseStep, Smoothed | None]:
+        """A smoothed step from a place, as the one before led there."""
+        joints, work = place.joints, attempts.work
+        if not attempts.tries:
+            attempts.asked = work
         step = PoseStep(joints, place.history, place.at, place.factor / joints.full.scaling.live, work)
         share = work / place.work if place.work else 0.0
-        anew = tries >= WARM
+        anew = attempts.tries >= SHARP
         found = step.smoothed(turned_on(place.twists, share), place.state, share, self.kappa, anew=anew)
         self.spent += step.spent
         return step, found
