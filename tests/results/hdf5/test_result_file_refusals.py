@@ -67,7 +67,7 @@ def test_an_older_version_says_who_wrote_it_and_what_to_do(path: Path) -> None:
     with changing(path) as file:
         file.attrs["version"] = 1
     words = refused(path)
-    assert "layout version 1, written by mbla 0.1.0; this mbla reads version 8" in words
+    assert "layout version 1, written by mbla 0.1.0; this mbla reads version 9" in words
     assert "run the deck again" in words
 
 
