@@ -44,7 +44,7 @@ larger one have other normals. Facets in contact as built hinge on each other up
 
 REACH = 0.05
 """Gap or overlap, over block size, beyond which facets are not in contact: a step moves blocks by less
-(:data:`MOVED` of :mod:`mbla.solution.pushover.way`), and what overlaps more are the far sides of blocks
+(:data:`MOVED` of :mod:`mbla.solution.pushover.renewal`), and what overlaps more are the far sides of blocks
 whose near ones touch."""
 
 NARROW, EDGE = 1e-6, 1e-3
@@ -164,12 +164,11 @@ class MovedSearch:
         parts, row = connected_parts(shapes)
         overlays = overlays.take(row)
         least, wide = _extreme_gaps(overlays, parts)[0], widths(parts)
-        built = np.isin(self._pair(overlays.bodies, overlays.facets), self._joined)
+        pair = self._pair(overlays.bodies, overlays.facets)
+        built = np.isin(pair, self._joined)
         near = (wide > np.where(built, NARROW, narrow)) & (built | (least > -wide))
         near &= (least > -self._reach) & (least < self._reach + opened)
-        near &= ~both_fixed(model, overlays.bodies) & ~np.isin(
-            self._pair(overlays.bodies, overlays.facets), self._edges
-        )
+        near &= ~both_fixed(model, overlays.bodies) & ~np.isin(pair, self._edges)
         if (solid := self.contacts.solid_of_block) is not None:
             body = np.append(solid, len(solid) + np.arange(len(model.grounds)))[overlays.bodies]
             near &= body[:, 0] != body[:, 1]
