@@ -66,12 +66,17 @@ def with_openings(step: JointStep, state: StepState, sigma: float) -> StepState:
 
 
 def at_rest_of(step: JointStep, state: StepState, sigma: float) -> StepState:
-    """The state with the normal forces that joints at rest have with products: (N − N̄) N = σ k_N h."""
+    """The state with the normal forces that joints at rest have with products: (N − N̄) N = σ k_N h, and as much below
+    what crushes them.
+    """
     joints, limits = step.joints, step.joints.program.limits
-    pressed = smoothed_margin(step.memory.normal + limits.tension, sigma / step.normal_compliance) - limits.tension
-    middle = 0.5 * (state.normal + limits.compression)[joints.crushable]
-    pressed[joints.crushable] = np.minimum(pressed[joints.crushable], middle)
-    return replace(state, normal=pressed)
+    trial, product = step.memory.normal, sigma / step.normal_compliance
+    normal = smoothed_margin(trial + limits.tension, product) - limits.tension
+    at = joints.crushable
+    strength, least = limits.compression[at], -limits.tension[at]
+    below = np.minimum(normal[at], strength - smoothed_margin(strength - trial[at], product[at]))
+    normal[at] = np.where(below > least, below, 0.5 * (strength + least))
+    return replace(state, normal=normal)
 
 
 def centred(joints: ElasticJoints, state: StepState, sigma: float, share: float) -> StepState:
@@ -125,9 +130,10 @@ def solved_peak(
     good   : whether one is taken where the way to such a state is blocked; else it begins anew
     """
     step, joints, again, blocked = peak.step, peak.step.joints, list(AGAIN), 0
+    best, spent = _by_newton(replace(peak, misfit=misfit(step, peak.state, force)), force)
+    if enough(best):
+        return best, spent
     sigma, state = peak.sigma, with_openings(peak.step, peak.state, peak.sigma)
-    best = replace(peak, misfit=misfit(step, peak.state, force))
-    best, spent = _by_newton(best, force)
     while not enough(best) and spent < STEPS:
         found = direction_of(step, state, residual_of(step, state), sigma)
         spent += 1
@@ -153,7 +159,7 @@ def solved_peak(
 
 def _by_newton(peak: PeakStep, force: float) -> tuple[PeakStep, int]:
     """The step solved by Newton's method from its state, as given where that comes to nothing; factorisations."""
-    if peak.step.joints.laws:
+    if peak.step.joints.laws or peak.misfit <= ROUNDING:
         return peak, 0
     found = by_newton(peak.step, peak.state.u, peak.state.factor, most=NEWTON, balanced=ROUNDING)
     state = found.state_of(peak.step)
