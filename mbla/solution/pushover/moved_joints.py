@@ -123,9 +123,7 @@ class MovedJoints:
         solids = tied(replace(solids, model=model))
         dead, live, _ = structure.loads_at(pose, fallen, 0.0)
         loads = replace(structure.case, dead_load=dead, live_load=live)
-        full = assemble(solids.model, solids.contacts, loads, own=False)
-        if full.guided and full.reduction is not None:
-            full = full.reduction.full  # guides come last
+        full = assemble(solids.model, solids.contacts, loads, own=False).full  # guides come last
         areas = structure.areas_of(touching)
         if old is not None:
             kept = touching.before >= 0
@@ -229,19 +227,8 @@ class MovedJoints:
     @cached_property
     def ways(self) -> tuple[sp.csr_array, sp.csr_array]:
         """U = S q and x = P y through all reductions."""
-        program = self.reduced
-        rows, columns = len(self.full.dead_load), 3 * self.full.n_points
-        ways: tuple[sp.csr_array, sp.csr_array] = (
-            sp.eye_array(rows, format="csr"),
-            sp.eye_array(columns, format="csr"),
-        )
-        chain = []
-        while program.reduction is not None:
-            chain.append(program.reduction)
-            program = program.reduction.full
-        for one in reversed(chain):
-            ways = (sp.csr_array(ways[0] @ one.velocities), sp.csr_array(ways[1] @ one.forces))
-        return ways
+        lift = self.reduced.lift
+        return lift.velocities, lift.forces
 
     @cached_property
     def row_of_solid(self) -> IntArray:
