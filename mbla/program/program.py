@@ -16,7 +16,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 import scipy.sparse as sp
 
-from mbla.arrays import BoolArray, FloatArray, IntArray
+from mbla.arrays import FloatArray
+from mbla.program.facts import ModelFacts
 from mbla.program.lift import Lift
 from mbla.program.yield_conditions.limits import YieldLimits
 
@@ -63,38 +64,24 @@ class Program:
                          each free block
     dead_load, live_load : (n_rows,)
     limits             : yield limits of the contact points, forces in the units of ``scaling``
-    free               : (n_free,) the block to which each six rows of the spatial program belong
-    n_blocks           : blocks of the model
+    facts              : of the model
     components         : of the force at a contact point: 3 (N, T1, T2), or 2 (N, T) in a planar program
     reduction          : the way back to the program of the full model; None for that itself
     of_blocks          : the way back to the program whose rows are those of blocks, where guides or a plane of symmetry
                          leave fewer; None where its own are
     guided             : it is in motions that guides allow
-    allowed            : of the program of the full model: (n_rows, n_rows) projector on the motions that guides allow,
-                         None where no block is guided
-    settles            : a support gives way: the reference of the load factor is chosen, and 0 does not show that the
-                         structure stands
-    areas              : of the program of the full model: (n_points,) by which contact points share stiffness
-                         (:mod:`mbla.program.stiffness_shares`); None elsewhere
-    brittle            : of the program of the full model: (n_points, 2) whether a point carries nothing once it has
-                         given way at its greatest force, and at its least; None where none does
     """
 
     equilibrium_matrix: sp.csr_array
     dead_load: FloatArray
     live_load: FloatArray
     limits: YieldLimits
-    free: IntArray
-    n_blocks: int
     scaling: Scaling
+    facts: ModelFacts
     components: int = 3
     reduction: Lift | None = None
     of_blocks: Lift | None = None
     guided: bool = False
-    allowed: sp.csr_array | None = None
-    settles: bool = False
-    areas: FloatArray | None = None
-    brittle: BoolArray | None = None
 
     def contact_velocities(self, velocities: FloatArray) -> FloatArray:
         """Aᵀu, (n_points, components), from (n_rows,)."""
@@ -175,12 +162,12 @@ class Program:
         """Velocities of all blocks, fixed ones at rest, (n_blocks, 6), from those of the program, (n_rows,)."""
         if self.reduction is not None:
             return self.reduction.full.mechanism(self.reduction.motion(scaled))
-        full = np.zeros((self.n_blocks, 6))
-        full[self.free] = self.scaling.velocities(scaled)
+        full = np.zeros((self.facts.n_blocks, 6))
+        full[self.facts.free] = self.scaling.velocities(scaled)
         return full
 
     def velocities(self, mechanism: FloatArray) -> FloatArray:
         """The way back from ``mechanism``: (n_rows,) from (n_blocks, 6), as near to it as its motions come."""
         if self.reduction is not None:
             return self.reduction.motion_within(self.reduction.full.velocities(mechanism))
-        return np.asarray(mechanism[self.free].ravel() / (self.scaling.row * self.scaling.live))
+        return np.asarray(mechanism[self.facts.free].ravel() / (self.scaling.row * self.scaling.live))

@@ -45,7 +45,7 @@ def shares_of(program: Program) -> FloatArray:
 
 def brittle_of(program: Program) -> BoolArray:
     """Which of a program's points lose their force at their greatest and at their least one, (n_points, 2)."""
-    brittle = program.full.brittle
+    brittle = program.facts.brittle
     if brittle is None:
         return np.zeros((program.n_points, 2), dtype=np.bool_)
     return np.asarray(abs(program.lift.normal_forces).T @ brittle.astype(np.float64) > 0.0)
@@ -53,9 +53,7 @@ def brittle_of(program: Program) -> BoolArray:
 
 def stiffness_through(program: Program) -> FloatArray:
     """Stiffness of a program's points over the mean of those of the full model, (n_points,)."""
-    full, lift = program.full, program.reduction
-    assert full.areas is not None  # of the full model
-    shares = shares_in_units(full.areas, full.scaling.units)
+    shares, lift = shares_in_units(program.facts.areas, program.scaling.units), program.reduction
     if lift is None:
         return shares
     compliance = np.asarray(lift.normal_forces.power(2).T @ (1.0 / shares))

@@ -46,8 +46,8 @@ class StrengthenedCase:
     def motion(self, velocities: FloatArray) -> FloatArray:
         """Of all blocks, (n_blocks, 6), for which a unit of power is one of the program, from (n_rows,)."""
         program = self.program
-        full = np.zeros((program.n_blocks, 6))
-        full[program.free] = (self.ways @ velocities * program.scaling.row).reshape(-1, 6)
+        full = np.zeros((program.facts.n_blocks, 6))
+        full[program.facts.free] = (self.ways @ velocities * program.scaling.row).reshape(-1, 6)
         return full
 
 

@@ -18,6 +18,7 @@ from mbla.program.assemble import (
     own_units,
     yield_limits,
 )
+from mbla.program.facts import ModelFacts
 from mbla.program.lift import Lift
 from mbla.program.program import Program, Scaling
 from mbla.program.yield_conditions import YieldLimits
@@ -155,9 +156,8 @@ def rows(dead: list[list[float]], live: list[list[float]], components: int = 3) 
         dead_load=np.concatenate([np.array(load, dtype=float) for load in dead]),
         live_load=np.concatenate([np.array(load, dtype=float) for load in live]),
         limits=YieldLimits(none, none, none, none, none),
-        free=np.arange(len(dead)),
-        n_blocks=len(dead),
         scaling=Scaling(2.0, 5.0, np.ones(n)),
+        facts=ModelFacts(free=np.arange(len(dead)), n_blocks=len(dead), areas=none),
         components=components,
     )
 
@@ -191,8 +191,7 @@ def test_the_dead_load_that_moves(speed: float, moved: float) -> None:
 def reduced(full: Program, ways: FloatArray, of_blocks: bool = False) -> Program:
     program = rows([(ways.T @ full.dead_load).tolist()], [(ways.T @ full.live_load).tolist()])
     way = Lift(full, sp.csr_array(ways), sp.csr_array((0, 0)), 3)
-    of_full = replace(program, n_blocks=full.n_blocks, free=full.free)
-    return replace(of_full, reduction=way, of_blocks=way if of_blocks else None)
+    return replace(program, facts=full.facts, reduction=way, of_blocks=way if of_blocks else None)
 
 
 def test_sizes_of_what_is_reduced_are_those_of_the_whole() -> None:

@@ -208,5 +208,5 @@ def _first_mirror(part: Scene, given: Mirrors) -> Mirror | None:
 
 def unreduced(program: Program, contacts: Contacts) -> Reduced:
     """The program as it is."""
-    size = ModelSize(3, 0, 1, len(program.free), program.n_points, 0)
+    size = ModelSize(3, 0, 1, len(program.facts.free), program.n_points, 0)
     return Reduced((program,), size, contacts.interface_of_point)

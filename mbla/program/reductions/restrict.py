@@ -46,11 +46,9 @@ def restricted(
         dead_load=dead,
         live_load=live,
         limits=limits,
-        free=program.free,
-        n_blocks=program.n_blocks,
         scaling=program.scaling,
+        facts=program.facts,
         components=components,
-        settles=program.settles,
         reduction=Lift.after(program.reduction, program, velocities, forces, components),
     )
 

@@ -50,7 +50,7 @@ def locking_forces(parts: Sequence[Program], settings: SolverSettings, log: Log)
         if not forces or len(forces) < len(loaded):
             continue
         whole = loaded[0].full
-        exact = _in_balance(guided_program(whole, whole.allowed), np.sum(forces, axis=0))
+        exact = _in_balance(guided_program(whole, whole.facts.allowed), np.sum(forces, axis=0))
         if exact is not None:
             return whole.scaling.forces(exact) / whole.scaling.live
     return None

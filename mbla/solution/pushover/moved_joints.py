@@ -130,10 +130,9 @@ class MovedJoints:
             areas[kept] = old.areas[touching.before[kept]]
         own = rows[:0] if solids.contacts.ties is None else rows[solids.contacts.ties.rows]
         mean = float(areas.mean()) if len(areas) else float(structure.areas.mean())
-        full = replace(full, areas=np.append(areas, np.full(len(own), mean)))
+        full = replace(full, facts=replace(full.facts, areas=np.append(areas, np.full(len(own), mean))))
         reduced = reduced_whole(scene_of(solids.model, solids.contacts, full), SWITCHES, solids.model.mirrors)
-        assert full.areas is not None  # just given
-        stiffness = structure.stiffness * float(full.areas.mean()) * stiffness_through(reduced)
+        stiffness = structure.stiffness * float(full.facts.areas.mean()) * stiffness_through(reduced)
         scaled = stiffness * full.scaling.live / full.scaling.force**2
         length = float(scaled.mean())
         return MovedJoints(
@@ -183,7 +182,7 @@ class MovedJoints:
         dead, live, change = self.structure.loads_at(pose, self.fallen, load_factor)
         every = dead + self._of_ties.fitted(ties, centres), live
         linear = every[0] + load_factor * (live - change), change
-        loads = [each[self.full.free].ravel() for each in linear]
+        loads = [each[self.full.facts.free].ravel() for each in linear]
         ways = self.ways[0].T
         program = replace(
             self.reduced,
@@ -234,7 +233,7 @@ class MovedJoints:
     def row_of_solid(self) -> IntArray:
         """Number among the free solids, (n_solids + grounds + 1,); −1 of the others."""
         number = np.full(len(self.model.blocks) + len(self.model.grounds) + 1, -1)
-        number[self.full.free] = np.arange(len(self.full.free))
+        number[self.full.facts.free] = np.arange(len(self.full.facts.free))
         return number
 
     @cached_property

@@ -69,7 +69,7 @@ def stress_free_state(program: Program) -> StressFree:
 
     A support that gives way later is held.
     """
-    return _stress_free(program if program.settles else program.without_live_load())
+    return _stress_free(program if program.facts.settles else program.without_live_load())
 
 
 @shared("standing")
@@ -180,5 +180,5 @@ def standing_without_equilibrium(program: Program, certificate: FloatArray) -> S
     """
     motion, program = motion_of(program, certificate), program.full
     load = (program.dead_load / program.scaling.row).reshape(-1, 6)
-    work = (load * motion[program.free]).sum(axis=1)
-    return StandingResult(Standing.NO, int(program.free[work.argmax()]), NO)
+    work = (load * motion[program.facts.free]).sum(axis=1)
+    return StandingResult(Standing.NO, int(program.facts.free[work.argmax()]), NO)
