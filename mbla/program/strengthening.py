@@ -36,19 +36,18 @@ class StrengthenedCase:
 
     program    : of the joints, and of the ties that are there; its dead load is q, its live load nothing
     pulls      : (n_rows, k) C, of candidates
-    ways       : from the velocities of the program to those of the free blocks, where guides leave fewer; else None
+    ways       : from the velocities of the program to those of the free blocks, of which guides leave fewer
     """
 
     program: Program
     pulls: sp.csr_array
-    ways: sp.csr_array | None
+    ways: sp.csr_array
 
     def motion(self, velocities: FloatArray) -> FloatArray:
         """Of all blocks, (n_blocks, 6), for which a unit of power is one of the program, from (n_rows,)."""
         program = self.program
-        free = velocities if self.ways is None else self.ways @ velocities
-        full = np.zeros((program.n_blocks, 6))
-        full[program.free] = (free * program.scaling.row).reshape(-1, 6)
+        full = np.zeros((program.facts.n_blocks, 6))
+        full[program.facts.free] = (self.ways @ velocities * program.scaling.row).reshape(-1, 6)
         return full
 
 
@@ -84,8 +83,7 @@ def strengthened_case(
         live_load=np.zeros_like(loads),
         reduction=None,
     )
-    ways = None if program.reduction is None else program.reduction.velocities
-    return StrengthenedCase(alone, sp.csr_array(pulls), ways)
+    return StrengthenedCase(alone, sp.csr_array(pulls), program.lift.velocities)
 
 
 @dataclass(frozen=True)

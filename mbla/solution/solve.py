@@ -243,7 +243,7 @@ def _with_load_factor(stage: _Stage, results: Sequence[PartResult], first: int, 
     if result.sequence is None:
         return replace(solution, mechanics=solution.associative, remarks=tuple(remarks))
     sequence, rule = result.sequence, analysis.flow_rule
-    searched = looks_lower(stage.parts[first], stage.settings, stage.interfaces) or stage.parts[first].settles
+    searched = looks_lower(stage.parts[first], stage.settings, stage.interfaces) or stage.parts[first].facts.settles
     words = [] if searched or not stage.settings.by_elastic_path else [OTHER_HISTORIES]
     words = [OF_INTERFACES] if words and stage.interfaces is not NONE else words
     return replace(

@@ -153,7 +153,8 @@ def test_the_weight_that_stabilises_conditions_grows_with_the_blocks_up_to_its_m
     n_free = len(line.model.free)
     assert convex_form(convex).cone_program.quadratic is None
     for blocks, weight in ((n_free, 1e-9 * n_free), (5000, 1e-7)):
-        many = replace(convex, points=replace(convex.points, free=np.arange(blocks)))
+        facts = replace(convex.points.facts, free=np.arange(blocks))
+        many = replace(convex, points=replace(convex.points, facts=facts))
         quadratic = convex_form(many, stabilised=1.0).cone_program.quadratic
         assert quadratic is not None
         assert quadratic == pytest.approx(np.full(len(quadratic), weight))

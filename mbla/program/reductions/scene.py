@@ -91,11 +91,11 @@ class Scene:
 def scene_of(model: Model, contacts: Contacts, program: Program) -> Scene:
     """The scene of the program of the full model."""
     row = np.full(len(model.blocks) + len(model.grounds), -1, dtype=np.int64)
-    row[program.free] = np.arange(len(program.free))
+    row[program.facts.free] = np.arange(len(program.facts.free))
     units = program.scaling.row.reshape(-1, 6)
     return Scene(
         program=program,
-        centroids=model.blocks.centroids[program.free],
+        centroids=model.blocks.centroids[program.facts.free],
         arms=units[:, 0] / units[:, 3],
         points=contacts.points,
         frames=contacts.frames,
@@ -104,7 +104,7 @@ def scene_of(model: Model, contacts: Contacts, program: Program) -> Scene:
         interfaces=contacts.interface_of_point,
         cut=np.zeros(program.n_points, dtype=np.int64) if contacts.cut_of_point is None else contacts.cut_of_point,
         **_links(contacts, row),
-        allowed=program.allowed,
+        allowed=program.facts.allowed,
     )
 
 

@@ -235,7 +235,7 @@ def convex_form(convex: ConvexProgram, stabilised: float = 0.0, *, reduce_dry: b
 
 def _stabilising(convex: ConvexProgram, n_unknowns: int) -> FloatArray:
     """Weights of the quadratic term: those of crushing, whose multipliers are large, hardly count."""
-    weights = np.full(n_unknowns, min(STABILISING * len(convex.points.free), AT_MOST))
+    weights = np.full(n_unknowns, min(STABILISING * len(convex.points.facts.free), AT_MOST))
     first = convex.n_block_rows + convex.conditions[0].motion.shape[1]
     weights[first : first + convex.conditions[1].motion.shape[1]] *= OF_CRUSHING
     return weights

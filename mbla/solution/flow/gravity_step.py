@@ -104,7 +104,7 @@ def gravity_step(joints: ElasticJoints, least_force: float = 0.0, gaps: FloatArr
     """
     program, n = joints.program, joints.program.n_points
     force = float(np.abs(program.dead_load).sum()) / max(n, 1) or least_force or 1.0
-    held = program.settles and bool(np.any(program.live_load))
+    held = program.facts.settles and bool(np.any(program.live_load))
     fresh = Memory.stress_free(joints, gaps)
     step = JointStep(joints, fresh, 1.0, driven=held, work=0.0, held=WEAKER * HELD[0] * joints.matrix.size)
     exact, spent = (None, 0) if joints.laws else _exactly(step)

@@ -69,7 +69,7 @@ def stress_free_state(program: Program) -> StressFree:
 
     A support that gives way later is held.
     """
-    return _stress_free(program if program.settles else program.without_live_load())
+    return _stress_free(program if program.facts.settles else program.without_live_load())
 
 
 @shared("standing")
@@ -121,8 +121,7 @@ def _on_model(program: Program, rest: LawState) -> StandingResult:
 
     With a force of 1 per length of 1 in the deck's units; with joints k times as stiff everything moves 1/k as far.
     """
-    while program.reduction is not None:
-        rest, program = lifted(program, rest), program.reduction.full
+    program, rest = program.full, lifted(program, rest)
     assert rest.history is not None
     scaling = program.scaling
     units = scaling.force * np.broadcast_to(scaling.units, len(rest.history.normal))
@@ -179,9 +178,7 @@ def standing_without_equilibrium(program: Program, certificate: FloatArray) -> S
 
     The block named is the one whose load does most of that work.
     """
-    motion = motion_of(program, certificate)
-    while program.reduction is not None:
-        program = program.reduction.full
+    motion, program = motion_of(program, certificate), program.full
     load = (program.dead_load / program.scaling.row).reshape(-1, 6)
-    work = (load * motion[program.free]).sum(axis=1)
-    return StandingResult(Standing.NO, int(program.free[work.argmax()]), NO)
+    work = (load * motion[program.facts.free]).sum(axis=1)
+    return StandingResult(Standing.NO, int(program.facts.free[work.argmax()]), NO)
