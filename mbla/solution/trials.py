@@ -15,7 +15,6 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.assembly.assembly import Assembly
-from mbla.assembly.rigid_bodies import RigidBodies
 from mbla.model.model import LoadCase
 from mbla.model.settlement import with_reference
 from mbla.program.assemble import assemble
@@ -95,7 +94,7 @@ def posed(assembly: Assembly, load_case: LoadCase, settings: SolverSettings, log
     if settlement is None:
         return load_case
     held = assembly.of(at_rest(load_case))
-    total = forces_at_rest(held, load_case, settings, log, stress_free=settings.standing)
+    total = forces_at_rest(assembly, load_case, settings, log, stress_free=settings.standing)
     if total is None:
         return with_reference(load_case, HIGH * settlement.unit)
     on_blocks = contact_resultants(held.model, held.contacts, total)[held.label[settlement.blocks]]
@@ -105,7 +104,7 @@ def posed(assembly: Assembly, load_case: LoadCase, settings: SolverSettings, log
 
 def force_at_rest(assembly: Assembly, load_case: LoadCase, settings: SolverSettings) -> float | None:
     """The force of an objective in the sense of its end, by the least forces that carry the loads; None without."""
-    total = forces_at_rest(assembly.of(at_rest(load_case)), load_case, settings, _silent)
+    total = forces_at_rest(assembly, load_case, settings, _silent)
     return None if total is None else measured_force(assembly.of(load_case), total)
 
 
@@ -115,14 +114,16 @@ def at_rest(load_case: LoadCase) -> LoadCase:
 
 
 def forces_at_rest(
-    bodies: RigidBodies, load_case: LoadCase, settings: SolverSettings, log: Log, *, stress_free: bool = False
+    assembly: Assembly, load_case: LoadCase, settings: SolverSettings, log: Log, *, stress_free: bool = False
 ) -> FloatArray | None:
     """Least contact forces that carry the dead load while nothing gives way, (n_points, 3); None without.
 
     stress_free : those that arise from the stress-free assembly, where they carry it
     """
+    held = at_rest(load_case)
+    bodies = assembly.of(held)
     model, contacts = replace(bodies.model, mirrors=()), bodies.contacts
-    program = assemble(model, contacts, bodies.load_case(at_rest(load_case)))
+    program = assemble(model, contacts, bodies.load_case(held))
     parts = reduce_program(model, contacts, program, EVERY_POINT, associative=True).parts
     total = np.zeros((len(contacts.points), 3))
     for part in parts:

@@ -5,7 +5,7 @@ A tower 1 x 1 x 2 on a fixed base and a flat brick 1 x 1 x 0.5 on the ground z =
 """
 
 import itertools
-from dataclasses import replace
+from dataclasses import fields, replace
 from typing import Any
 
 import numpy as np
@@ -467,7 +467,7 @@ def same(first: Any, second: Any) -> bool:
         )
     if hasattr(first, "__dataclass_fields__"):
         return type(first) is type(second) and all(
-            same(getattr(first, name), getattr(second, name)) for name in first.__dataclass_fields__
+            same(getattr(first, field.name), getattr(second, field.name)) for field in fields(first) if field.compare
         )
     if isinstance(first, (tuple, list)) and isinstance(second, (tuple, list)):
         return len(first) == len(second) and all(map(same, first, second))
