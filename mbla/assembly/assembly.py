@@ -33,7 +33,7 @@ class Assembly:
 
     def glued(self, load_case: LoadCase | None = None) -> RigidBodies:
         """Rigid bodies as they may move under a load case, or at rest, and the interfaces between them alone."""
-        variant = () if load_case is None else _variant(load_case)
+        variant = () if load_case is None else _supports(load_case)
         if variant not in self._glued:
             model = self.model if load_case is None else self.model.of_case(load_case)
             self._glued[variant] = rigid_bodies(model, self.contacts)
@@ -41,7 +41,7 @@ class Assembly:
 
     def of(self, load_case: LoadCase) -> RigidBodies:
         """What the solver sees under a load case: with the load cell of its objective, and ties among the contacts."""
-        variant = _variant(load_case)
+        variant = _supports(load_case) + _measured(load_case)
         if variant not in self._seen:
             self._seen[variant] = with_ties(self._with_load_cell(load_case))
         return self._seen[variant]
@@ -63,14 +63,21 @@ class Assembly:
         return other
 
 
-def _variant(load_case: LoadCase) -> Variant:
-    settlement, objective = load_case.settlement, load_case.objective
-    variant: Variant = ()
-    if settlement is not None:
-        variant = (settlement.blocks.tobytes(), settlement.motions.tobytes(), settlement.sense, settlement.unit)
-    if objective is not None:
-        variant += (objective.sides.tobytes(), objective.ties.tobytes(), objective.direction.tobytes())
-    return variant
+def _supports(load_case: LoadCase) -> Variant:
+    """Supports that give way, and how."""
+    settlement = load_case.settlement
+    if settlement is None or not len(settlement.blocks):
+        return ()
+    return settlement.blocks.tobytes(), settlement.motions.tobytes()
+
+
+def _measured(load_case: LoadCase) -> Variant:
+    """What a load cell measures, and in which unit."""
+    objective, settlement = load_case.objective, load_case.settlement
+    if objective is None or settlement is None:
+        return ()
+    arrays = objective.sides, objective.ties, objective.direction
+    return settlement.sense, settlement.unit, *(array.tobytes() for array in arrays)
 
 
 def assembly_of(model: Model, contacts: Contacts) -> Assembly:

@@ -44,7 +44,7 @@ def test_load_cases_share_what_the_solver_sees_where_it_is_the_same(tmp_path: Pa
     assert own.of(push) is own.of(pull)
     assert own.of(sink) is own.of(with_reference(sink, 3.0))
     assert len({id(own.of(case)) for case in (push, sink, least, greatest)}) == 4
-    assert own.glued(push) is own.glued()
+    assert own.glued(push) is own.glued(least) is own.glued()
     solved = own.with_load_cases((push, with_reference(sink, 3.0)))
     assert [case.name for case in solved.model.load_cases] == ["push", "sink"]
     assert solved.of(sink) is own.of(sink)
