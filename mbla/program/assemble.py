@@ -173,7 +173,7 @@ def equilibrium_matrix(model: Model, contacts: Contacts, free: IntArray) -> sp.c
     bodies = contacts.bodies[contacts.interface_of_point]
     matrix = _matrix(n_bodies, model.blocks.centroids, bodies, contacts.points, contacts.frames, free)
     if contacts.cut_of_point is not None:
-        matrix = sp.csr_array(matrix + _on_gauge(contacts, matrix.shape))
+        matrix = sp.csr_array(matrix + _on_load_cell(contacts, matrix.shape))
     if contacts.ties is None:
         return matrix
     acts = np.ones((len(bodies), 3))
@@ -182,8 +182,8 @@ def equilibrium_matrix(model: Model, contacts: Contacts, free: IntArray) -> sp.c
     return sp.csr_array(in_lines + _further(n_bodies, model, contacts.ties, free, len(bodies)))
 
 
-def _on_gauge(contacts: Contacts, shape: tuple[int, int]) -> sp.csr_array:
-    """What contact forces do to a gauge, the last block: forces through the cut, without moments."""
+def _on_load_cell(contacts: Contacts, shape: tuple[int, int]) -> sp.csr_array:
+    """What contact forces do to a load cell, the last block: forces through the cut, without moments."""
     assert contacts.cut_of_point is not None
     points = np.flatnonzero(contacts.cut_of_point)
     forces = contacts.cut_of_point[points, None, None] * contacts.frames[points]

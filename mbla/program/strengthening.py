@@ -22,7 +22,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from mbla.arrays import FloatArray
-from mbla.contacts.glue import Solids
+from mbla.assembly.rigid_bodies import RigidBodies
 from mbla.model.model import LoadCase
 from mbla.program.assemble import assemble
 from mbla.program.kinematic import ConeProgram, KinematicForm, kinematic_form
@@ -52,16 +52,16 @@ class StrengthenedCase:
 
 
 def strengthened_case(
-    solids: Solids, load_case: LoadCase, required: float, first: int, count: int, unit: float
+    bodies: RigidBodies, load_case: LoadCase, required: float, first: int, count: int, unit: float
 ) -> StrengthenedCase:
     """A load case at a load factor.
 
-    solids : with all candidates among its contacts
+    bodies : with all candidates among its contacts
     first  : number of the first candidate among the ties of the model; ``count`` of them
     unit   : of force of the program, N
     """
-    contacts = solids.contacts
-    program = assemble(solids.model, contacts, solids.load_case(load_case), own=False)
+    contacts = bodies.contacts
+    program = assemble(bodies.model, contacts, bodies.load_case(load_case), own=False)
     program = program.in_unit_of_force(unit / program.scaling.force)
     ties, n_points = contacts.ties, len(contacts.points)
     rows = np.zeros(0, dtype=np.int64) if ties is None else ties.rows

@@ -18,8 +18,8 @@ from mbla.solution.associative.force_ranges import force_ranges
 from mbla.solution.associative.solve_associative import AssociativeResult
 from mbla.solution.cone_solvers.cone_solution import Log
 from mbla.solution.flow.path_record import Stop
-from mbla.solution.glued import solution_on_blocks
 from mbla.solution.law.interfaces import NONE, Interfaces
+from mbla.solution.lifted import solution_on_blocks
 from mbla.solution.mechanics import mechanics_of, motion_of
 from mbla.solution.nonassociative.law_state import LawState
 from mbla.solution.nonassociative.least_found import looks_lower
@@ -111,14 +111,14 @@ def solve(program: CaseProgram, settings: SolverSettings, log: Log | None = None
             from mbla.solution.resultants.of_interfaces import torsion_of_interfaces
 
             solution = replace(solution, torsion=torsion_of_interfaces(program, solution.torsion))
-    return solution_on_blocks(solution, program.solids)
+    return solution_on_blocks(solution, program.bodies)
 
 
 def _with_torsion(program: CaseProgram, settings: SolverSettings) -> Interfaces:
     """Interfaces whose torsion a second path limits, so that its load factor stands beside the answer."""
     turned = program.load_case.tilt is not None and not program.load_case.tilt.tangent  # solved for many angles
     spatial = any(part.components == 3 for part in program.reduced.parts)
-    model, contacts = program.solids.model, program.solids.contacts
+    model, contacts = program.bodies.model, program.bodies.contacts
     at_points = crushable_interfaces(model, contacts).any()  # points that crush by themselves have no such law
     if turned or not spatial or at_points or not settings.by_torsion:
         return NONE
@@ -132,7 +132,7 @@ def solve_parts(
     interfaces: Interfaces = NONE,
     beside: Interfaces = NONE,
 ) -> Solution:
-    """The same of the contact points of solids: their parts one after the other, then the whole structure.
+    """The same of the contact points of rigid bodies: their parts one after the other, then the whole structure.
 
     log        : called once per iteration of a cone program, as it goes
     interfaces : of the model that have a law of their own in the path of elastic joints

@@ -63,7 +63,7 @@ def test_a_lock_without_forces_that_prove_it_is_not_verified(monkeypatch: pytest
     solution = solution_of(line)
     assert solution.status is Status.NOT_VERIFIED
     assert solution.reason == solve.LOCK_NOT_PROVED
-    checks = verify(line.model, line.contacts, line.load_case, claim(None, Status.UNBOUNDED))
+    checks = verify(line.assembly, line.load_case, claim(None, Status.UNBOUNDED))
     assert checks.failures == ("no forces are given that carry every multiple of the live load",)
 
 

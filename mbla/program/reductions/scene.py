@@ -51,7 +51,7 @@ class Scene:
     linked    : (m, 2) bodies, as above, that ties link besides those of their points
     linking   : (m,) these points
     allowed   : projector on the motions that guides allow, (6 n_free, 6 n_free) in the program's units; None for all
-    cut       : (n_points,) side on which the gauge feels the force (:mod:`mbla.contacts.gauge`); 0 everywhere without
+    cut       : (n_points,) side on which a load cell measures (:mod:`mbla.assembly.load_cell`); 0 without
     """
 
     program: Program
@@ -184,8 +184,8 @@ def part_of_blocks(scene: Scene) -> IntArray:
     pairs = np.vstack([scene.bodies[both], scene.linked[(scene.linked >= 0).all(axis=1)]])
     if scene.allowed is not None:  # blocks of one guided body
         pairs = np.vstack([pairs, np.column_stack(scene.allowed.nonzero()) // 6])
-    felt = scene.bodies[scene.cut != 0].max(axis=1)  # by the gauge, which is the last block
-    pairs = np.vstack([pairs, np.column_stack([felt, np.full(len(felt), n - 1)])])
+    measured = scene.bodies[scene.cut != 0].max(axis=1)  # by the load cell, which is the last block
+    pairs = np.vstack([pairs, np.column_stack([measured, np.full(len(measured), n - 1)])])
     return connected_labels(pairs, n)
 
 

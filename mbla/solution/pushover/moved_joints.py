@@ -13,9 +13,9 @@ import numpy as np
 import scipy.sparse as sp
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
+from mbla.assembly.ties import with_ties
 from mbla.contacts.carried import Placed, Touching
 from mbla.contacts.contacts import Contacts
-from mbla.contacts.tied import tied
 from mbla.model.model import Model
 from mbla.model.pose import Pose
 from mbla.model.ties.ties import Ties
@@ -120,7 +120,7 @@ class MovedJoints:
         rows = np.flatnonzero(~broken)
         left = replace(there, prestress=np.zeros(len(there))).take(rows)
         model = replace(solids.model, fixed=solids.model.fixed | fallen, ties=left, load_cases=())
-        solids = tied(replace(solids, model=model))
+        solids = with_ties(replace(solids, model=model))
         dead, live, _ = structure.loads_at(pose, fallen, 0.0)
         loads = replace(structure.case, dead_load=dead, live_load=live)
         full = assemble(solids.model, solids.contacts, loads, own=False).full  # guides come last
@@ -180,7 +180,7 @@ class MovedJoints:
         row, scaling = self.full.scaling.row, self.full.scaling
         load_factor = scaling.load_factor(factor)
         dead, live, change = self.structure.loads_at(pose, self.fallen, load_factor)
-        every = dead + self._of_ties.fitted(ties, centres), live
+        every = dead + self._of_ties.prestress_load(ties, centres), live
         linear = every[0] + load_factor * (live - change), change
         loads = [each[self.full.facts.free].ravel() for each in linear]
         ways = self.ways[0].T

@@ -28,7 +28,7 @@ def of_interfaces(convex: ConvexProgram, mechanics: Mechanics, flow_rule: str) -
 
 def torsion_of_interfaces(program: CaseProgram, mechanics: Mechanics) -> Mechanics:
     """The same of a state with torsion of uniform pressure beside an answer by contact points."""
-    model, contacts = program.solids.model, program.solids.contacts
+    model, contacts = program.bodies.model, program.bodies.contacts
     convex = assemble_convex(model, contacts, program.load_case, "convex")
     return of_interfaces(convex, mechanics, "non_associative")
 

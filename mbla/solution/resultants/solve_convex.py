@@ -37,7 +37,7 @@ def solve_with_interfaces(program: CaseProgram, settings: SolverSettings, log: L
     decided = associative.associative is not None or associative.status is Status.UNBOUNDED
     if settings.analysis.flow_rule == "associative" or not decided:
         return associative
-    model, contacts, analysis = program.solids.model, program.solids.contacts, settings.analysis
+    model, contacts, analysis = program.bodies.model, program.bodies.contacts, settings.analysis
     twisting = TwistingInterfaces.of(model, contacts)
     crushing = CrushingInterfaces.of(model, contacts) if associative.stress_blocks else None
     own = Interfaces(crushing, twisting if analysis.contact_model == "convex" else None)
