@@ -11,7 +11,6 @@ import pytest
 from mbla.solution.associative import repair
 from mbla.solution.associative.repair import repaired_forces
 from mbla.solution.associative.solve_associative import solve_associative
-from mbla.solution.linear_algebra.stiffness import Stiffness, stiffness_of
 from mbla.solution.nonassociative import livesley
 from mbla.solution.nonassociative import refine_equilibrium as light_blocks
 from mbla.solution.nonassociative.law_state import SequenceResult
