@@ -36,7 +36,7 @@ class Knobs:
 
     tolerance : of the cone solver, relative
     gap       : wanted distance of the proved bounds of an associative load factor, relative; a program whose bounds lie
-                further apart is solved again, more sharply
+                further apart is solved again
     residual  : wanted of flow without normality: largest residual at which a search has found a state
     search    : flow without normality: iterations spent on lower load factors, over those of the first state found
     torsion   : in space without dilatancy: whether a second path tells the load factor with torsion of uniform pressure

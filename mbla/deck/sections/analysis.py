@@ -132,7 +132,7 @@ class AnalysisSection(Section):
     gap: Annotated[float, Quantity("number", gt=0, le=1e-2)] | None = Field(
         None,
         description="wanted distance of the proved bounds of the associative load factor, relative; further apart, its "
-        "program is solved again, more sharply; " + set_by_accuracy("gap"),
+        "program is solved again by the other method; " + set_by_accuracy("gap"),
     )
     residual: Annotated[float, Quantity("number", gt=0, le=1e-2)] | None = Field(
         None,
