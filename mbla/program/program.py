@@ -17,6 +17,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
+from mbla.program.conditions import Conditions
 from mbla.program.yield_conditions.limits import YieldLimits
 
 
@@ -88,6 +89,7 @@ class Program:
                          structure stands
     areas              : of the program of the full model: (n_points,) by which contact points share stiffness
                          (:mod:`mbla.program.stiffness_shares`); None elsewhere
+    conditions         : on the resultants of interfaces; None where there are none
     brittle            : of the program of the full model: (n_points, 2) whether a point carries nothing once it has
                          given way at its greatest force, and at its least; None where none does
     """
@@ -107,10 +109,25 @@ class Program:
     settles: bool = False
     areas: FloatArray | None = None
     brittle: BoolArray | None = None
+    conditions: Conditions | None = None
 
     def contact_velocities(self, velocities: FloatArray) -> FloatArray:
         """Aᵀu, (n_points, components), from (n_rows,)."""
         return np.asarray((self.equilibrium_matrix.T @ velocities).reshape(-1, self.components))
+
+    @property
+    def with_own_motions(self) -> Program:
+        """The program with the unknowns of its conditions behind the velocities of the blocks: v = Aᵀu − RᵀGᵀζ."""
+        conditions = self.conditions
+        if conditions is None:
+            return self
+        return replace(
+            self,
+            equilibrium_matrix=sp.csr_array(sp.vstack([self.equilibrium_matrix, -conditions.velocities.T])),
+            dead_load=np.concatenate([self.dead_load, -conditions.cost]),
+            live_load=np.concatenate([self.live_load, np.zeros(len(conditions.cost))]),
+            conditions=None,
+        )
 
     def without_live_load(self) -> Program:
         """The part of it that does not depend on the live load, down to the program of the full model."""
