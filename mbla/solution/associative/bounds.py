@@ -14,6 +14,7 @@ import numpy as np
 from mbla.arrays import FloatArray
 from mbla.process.stopwatch import stage
 from mbla.program.program import Program
+from mbla.solution.associative.condition_cones import ConditionCones
 from mbla.solution.associative.repair import repaired_forces, repaired_mechanisms
 from mbla.solution.nonassociative.law_state import LawState
 
@@ -50,11 +51,17 @@ class CertifiedGap:
 
 
 @stage("repair")
-def certified_gap(program: Program, state: LawState) -> CertifiedGap:
-    """Bounds of the associative load factor that a state proves; no solver is called."""
-    repaired = repaired_forces(program, state.forces, state.load_factor)
+def certified_gap(program: Program, state: LawState, slacks: FloatArray | None = None) -> CertifiedGap:
+    """Bounds of the associative load factor that a state proves; no solver is called.
+
+    state  : its velocities are (n_rows + n_unknowns,), those of conditions on interfaces behind those of the blocks
+    slacks : (n_slacks,) of these conditions
+    """
+    repaired = repaired_forces(program, state.forces, state.load_factor, slacks)
     forces, factor = (state.forces, state.load_factor) if repaired is None else repaired
     charge = CHARGED * float(np.abs(state.forces[:, 0]).max(initial=0.0))
+    if slacks is not None:
+        charge = max(charge, CHARGED * float(np.abs(slacks).max(initial=0.0)))
     mechanisms = list(repaired_mechanisms(program, state.velocities))
     values = [kinematic_value(program, u, charge) for u in mechanisms]
     best = int(np.argmin(np.nan_to_num(values, nan=np.inf)))
@@ -86,8 +93,9 @@ def falling_motion(program: Program, velocities: FloatArray) -> FloatArray | Non
     velocities = velocities / largest
     charge = LOCKED_IN * float(np.abs(program.dead_load).sum())
     for u in repaired_mechanisms(program, velocities):
-        work = float(program.dead_load @ u) - dissipation(program, u, charge)
-        if work > WORK_ROUNDING * float(np.abs(program.dead_load) @ np.abs(u)):
+        blocks = u[: len(program.dead_load)]
+        work = float(program.dead_load @ blocks) - dissipation(program, u, charge)
+        if work > WORK_ROUNDING * float(np.abs(program.dead_load) @ np.abs(blocks)):
             return u
     return None
 
@@ -97,10 +105,11 @@ def kinematic_value(program: Program, velocities: FloatArray, charge: float) -> 
 
     charge : normal force with which the remaining incompatibility is charged
     """
-    live_power = float(program.live_load @ velocities)
+    blocks = velocities[: len(program.dead_load)]
+    live_power = float(program.live_load @ blocks)
     if not live_power > 0.0:
         return float("nan")
-    return float((dissipation(program, velocities, charge) - program.dead_load @ velocities) / live_power)
+    return float((dissipation(program, velocities, charge) - program.dead_load @ blocks) / live_power)
 
 
 def dissipation(program: Program, velocities: FloatArray, charge: float) -> float:
@@ -108,11 +117,13 @@ def dissipation(program: Program, velocities: FloatArray, charge: float) -> floa
 
     velocities : (n_rows,)  non-dimensional, as is the power
     """
-    limits = program.limits
-    v = (program.equilibrium_matrix.T @ velocities).reshape(-1, program.components)
+    limits, further = program.limits, ConditionCones.of(program)
+    v = further.moving.contact_velocities(velocities)
     sliding = np.linalg.norm(v[:, 1:], axis=1)
     surplus = v[:, 0] - limits.friction * sliding
     crushes, short = np.isfinite(limits.compression), np.maximum(-surplus, 0.0)
     crushed = np.where(crushes, limits.compression, 0.0) * short
     power = limits.cohesion * sliding + limits.tension * np.maximum(surplus, 0.0) + crushed
-    return float(power.sum() + charge * short[~crushes].sum())
+    lack = short[~crushes].sum() + further.lack(further.held.T @ velocities).sum()
+    own = 0.0 if program.conditions is None else program.conditions.cost @ velocities[len(program.dead_load) :]
+    return float(power.sum() + own + charge * lack)

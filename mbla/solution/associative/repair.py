@@ -13,6 +13,9 @@ solver's mechanism is moved, in the metric of the cones' own barrier, towards co
 
 The barrier of a cone ‖T‖ ≤ s is −log(s² − ‖T‖²), that of a half-line −log of its slack. Forces and velocities have two
 or three components.
+
+Conditions on interfaces are further cones: their slacks s stand beside the forces, in balance in the rows of their
+unknowns ψ, and cones @ ψ beside the contact velocities (:mod:`mbla.program.conditions`).
 """
 
 from __future__ import annotations
@@ -27,6 +30,7 @@ from mbla.arrays import FloatArray
 from mbla.process.stopwatch import stage
 from mbla.program.program import Program
 from mbla.program.yield_conditions import YieldLimits, yield_violation
+from mbla.solution.associative.condition_cones import ConditionCones
 from mbla.solution.linear_algebra.block_products import block_diagonal, inverses
 from mbla.solution.linear_algebra.bordered_system import PROGRESS, ROUNDS, bordered_solver
 
@@ -119,35 +123,39 @@ that nothing is left of the latter in double precision."""
 
 @stage("repair")
 def repaired_forces(
-    program: Program, forces: FloatArray, load_factor: float, inside: float = INSIDE
+    program: Program,
+    forces: FloatArray,
+    load_factor: float,
+    slacks: FloatArray | None = None,
+    inside: float = INSIDE,
 ) -> tuple[FloatArray, float] | None:
-    """Forces near the given ones that balance the loads within the yield conditions, and the load factor they carry.
+    """Forces near the given ones that balance the loads within all conditions, and the load factor they carry.
 
     forces : (n_points, components), non-dimensional as ``program``, like the load factor. None where no repair is found
+    slacks : (n_slacks,) of the conditions on interfaces, where the program has such: without them there is none
     inside : excess over a yield condition that is allowed
     """
-    x, factor, best, least = forces, load_factor, None, np.inf
+    if slacks is None and program.conditions is not None:
+        return None
+    further = ConditionCones.of(program)
+    x, s, factor, best, least = forces, further.none if slacks is None else slacks, load_factor, None, np.inf
     for _ in range(ROUNDS + 1):
-        off = float(np.abs(_unbalanced(program, x, factor)).max(initial=0.0))
-        excess = float(yield_violation(x, program.limits).max(initial=0.0))
-        rounding = FORCE_ROUNDING * float(np.abs(x).max(initial=0.0))
+        off = float(np.abs(further.unbalanced(x, s, factor)).max(initial=0.0))
+        excess = max(float(yield_violation(x, program.limits).max(initial=0.0)), further.lack(s).max(initial=0.0))
+        rounding = FORCE_ROUNDING * max(float(np.abs(x).max(initial=0.0)), float(np.abs(s).max(initial=0.0)))
         if excess <= max(inside, rounding) and off <= min(least, max(EQUILIBRIUM_TOLERANCE, rounding)):
             enough = off <= max(BALANCED, rounding) or off > PROGRESS * least
             best, least = (x, factor), off
             if enough:
                 break
-        x = _pulled_inside(program, x)
-        step = _static_correction(program, x, factor)
+        x, s = _pulled_inside(program, x), further.pulled_inside(s)
+        step = _static_correction(program, further, x, s, factor)
         if step is None:
             break
-        x, factor = x + step[0], factor + step[1]
+        x, s, factor = x + step[0], s + step[1], factor + step[2]
         if np.abs(x).max(initial=0.0) > RUNAWAY * (1.0 + np.abs(forces).max(initial=0.0)):
             break
     return best
-
-
-def _unbalanced(program: Program, x: FloatArray, factor: float) -> FloatArray:
-    return np.asarray(program.equilibrium_matrix @ x.ravel() + program.dead_load + factor * program.live_load)
 
 
 def carried_loads(program: Program, x: FloatArray) -> FloatArray:
@@ -184,26 +192,30 @@ def _pulled_inside(program: Program, x: FloatArray) -> FloatArray:
     return inside
 
 
-def _static_correction(program: Program, x: FloatArray, factor: float) -> tuple[FloatArray, float] | None:
-    """Least change of forces and load factor, in the barrier's metric, that restores equilibrium."""
+def _static_correction(
+    program: Program, further: ConditionCones, x: FloatArray, s: FloatArray, factor: float
+) -> tuple[FloatArray, FloatArray, float] | None:
+    """Least change of forces, slacks and load factor, in the barrier's metric, that restores equilibrium."""
     limits = program.limits
     least = NO_FORCE * max(float(np.abs(x).max(initial=0.0)), 1e-280)  # a steeper cone has none: no digits are left
     needed = 2.0 * np.linalg.norm(x[:, 1:], axis=1) / np.maximum(x[:, 0], least)
     weights = force_metric(replace(limits, friction=np.minimum(limits.friction, np.maximum(STEEP, needed))), x)
-    matrix = program.equilibrium_matrix
-    normal = sp.csc_array(matrix @ weights @ matrix.T)
+    of_slacks = further.inverse_hessian(s)
+    matrix, held = further.moving.equilibrium_matrix, further.held
+    normal = further.with_slacks(matrix @ weights @ matrix.T, of_slacks)
     free = 1e-4 * max(abs(factor), 1e-3)
-    solve = bordered_solver(normal, program.live_load, free * free)  # not **, which raises beyond numbers
+    solve = bordered_solver(normal, further.moving.live_load, free * free)  # not **, which raises beyond numbers
     if solve is None:
         return None
-    delta, delta_factor = np.zeros_like(x), 0.0
+    delta, of_s, delta_factor = np.zeros_like(x), np.zeros_like(s), 0.0
     for _ in range(4):  # refinement: the metric spans many decades
-        y = solve(-_unbalanced(program, x + delta, factor + delta_factor))
+        y = solve(-further.unbalanced(x + delta, s + of_s, factor + delta_factor))
         if not np.isfinite(y).all():
             return None
         delta = delta + (weights @ (matrix.T @ y[:-1])).reshape(x.shape)
+        of_s = of_s + of_slacks @ (held.T @ y[:-1])
         delta_factor += float(y[-1])
-    return delta, delta_factor
+    return delta, of_s, delta_factor
 
 
 OPENINGS = (1e-13, 1e-11, 1e-9)
@@ -212,53 +224,62 @@ compatible; the best one counts. Confined joints cannot open at all: there the s
 
 
 def repaired_mechanisms(program: Program, velocities: FloatArray) -> Iterator[FloatArray]:
-    """The given velocities, (n_rows,) non-dimensional, and versions of them moved towards compatibility.
+    """The given velocities, and versions of them moved towards compatibility.
 
     Each is found when it is asked for.
+
+    velocities : (n_rows + n_unknowns,) of the blocks, then unknowns of the conditions on interfaces; non-dimensional
     """
     yield velocities
+    further = ConditionCones.of(program)
     for opening in OPENINGS:
         u, lack = velocities, np.inf
         for _ in range(ROUNDS):
-            moved = _kinematic_correction(program, u, opening)
+            moved = _kinematic_correction(further, u, opening)
             if moved is None:
                 break
             yield moved
-            u, before, lack = moved, lack, incompatibility(program, moved)
+            u, before, lack = moved, lack, incompatibility(further, moved)
             if lack == 0.0:
                 return
             if lack > PROGRESS * before:
                 break
 
 
-def incompatibility(program: Program, velocities: FloatArray) -> float:
-    """Sum of μ s − v_N over points that cannot crush, where that is positive.
+def incompatibility(further: ConditionCones, velocities: FloatArray) -> float:
+    """Sum of μ s − v_N over points that cannot crush, where that is positive, and of what conditions lack.
 
-    velocities : (n_rows,)  non-dimensional
+    velocities : (n_rows + n_unknowns,)  non-dimensional
     """
-    v = (program.equilibrium_matrix.T @ velocities).reshape(-1, program.components)
+    program = further.moving
+    v = program.contact_velocities(velocities)
     lack = np.maximum(program.limits.friction * np.linalg.norm(v[:, 1:], axis=1) - v[:, 0], 0.0)
-    return float(lack[np.isinf(program.limits.compression)].sum())
+    of_conditions = further.lack(further.held.T @ velocities)
+    return float(lack[np.isinf(program.limits.compression)].sum() + of_conditions.sum())
 
 
 @stage("repair")
-def _kinematic_correction(program: Program, u: FloatArray, opening: float) -> FloatArray | None:
+def _kinematic_correction(further: ConditionCones, u: FloatArray, opening: float) -> FloatArray | None:
     """Least change, in the barrier's metric, towards velocities that open by ``opening`` of the largest speed."""
-    mu, matrix = program.limits.friction, program.equilibrium_matrix
-    v = (matrix.T @ u).reshape(-1, program.components)
+    program = further.moving
+    mu, matrix, held = program.limits.friction, program.equilibrium_matrix, further.held
+    v = program.contact_velocities(u)
     speed = max(float(np.abs(v).max(initial=0.0)), 1e-9 * float(np.abs(u).max(initial=0.0)), 1e-150)
     target = v.copy()
     target[:, 0] = np.maximum(v[:, 0], mu * np.linalg.norm(v[:, 1:], axis=1) + opening * speed)
+    wanted = further.inside_by(held.T @ u, opening)
     weights = velocity_hessian(mu, target)
     # joints that can crush need not open: they only keep the velocity from straying
     weak = 1.0 / (speed * speed)  # not **, which raises beyond numbers
     weights[np.isfinite(program.limits.compression)] = weak * np.eye(program.components)
-    metric = block_diagonal(weights)
-    solve = bordered_solver(sp.csc_array(matrix @ metric @ matrix.T), program.live_load, np.inf)
+    metric, of_conditions = block_diagonal(weights), further.hessian(wanted)
+    normal = further.with_slacks(matrix @ metric @ matrix.T, of_conditions)
+    solve = bordered_solver(normal, program.live_load, np.inf)
     if solve is None:
         return None
     delta = np.zeros_like(u)
     for _ in range(3):
-        misfit = target.ravel() - matrix.T @ (u + delta)
-        delta = delta + solve(matrix @ (metric @ misfit))[:-1]
+        misfit = matrix @ (metric @ (target.ravel() - matrix.T @ (u + delta)))
+        misfit += held @ (of_conditions @ (wanted - held.T @ (u + delta)))
+        delta = delta + solve(misfit)[:-1]
     return u + delta if np.isfinite(delta).all() else None
