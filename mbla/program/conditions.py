@@ -30,7 +30,6 @@ class Conditions:
     cost       : (n_unknowns,) g·ζ
     cones      : (n_cone_rows, n_unknowns) ζ
     cone_sizes : (n_cones,) dimensions of the cones in their order, 1 for half-lines
-    n_local    : last unknowns that belong to the cones of one piece of an interface and move nothing by themselves
     motions    : (2, 6 n_interfaces, n_unknowns) motions of the interfaces of the model by torsion and by crushing, dual
                  to their resultants about their centroids, in the unit of force of the program of the full model
     """
@@ -39,7 +38,6 @@ class Conditions:
     cost: FloatArray
     cones: sp.csr_array
     cone_sizes: IntArray
-    n_local: int
     motions: tuple[sp.csr_array, sp.csr_array]
 
     def moved(self, unknowns: FloatArray) -> FloatArray:
@@ -54,15 +52,12 @@ def joined(parts: Sequence[Conditions]) -> Conditions | None:
     sizes = np.concatenate([part.cone_sizes for part in parts])
     order = np.argsort(sizes, kind="stable")
     rows = items_of_rows(np.concatenate([[0], np.cumsum(sizes)]), order)
-    local = np.concatenate([np.arange(len(part.cost)) >= len(part.cost) - part.n_local for part in parts])
-    columns = np.argsort(local, kind="stable")
     cones = sp.csr_array(sp.block_diag([part.cones for part in parts]))[rows]
     by_torsion, by_crushing = (sp.csr_array(sp.hstack([part.motions[kind] for part in parts])) for kind in (0, 1))
     return Conditions(
-        velocities=sp.csr_array(sp.hstack([part.velocities for part in parts]))[:, columns],
-        cost=np.concatenate([part.cost for part in parts])[columns],
-        cones=cones[:, columns],
+        velocities=sp.csr_array(sp.hstack([part.velocities for part in parts])),
+        cost=np.concatenate([part.cost for part in parts]),
+        cones=cones,
         cone_sizes=sizes[order],
-        n_local=int(local.sum()),
-        motions=(by_torsion[:, columns], by_crushing[:, columns]),
+        motions=(by_torsion, by_crushing),
     )

@@ -128,7 +128,7 @@ def kinematic_form(program: Program, limits: YieldLimits, *, reduce_dry: bool = 
         further_cones=() if conditions is None else tuple(conditions.cone_sizes.tolist()),
         n_half_lines=len(rows.cut_off) + len(rows.crushing) + (2 * n_shear if planar else 0),
         n_cones=0 if planar else n_shear,
-        n_local=len(rows.frictional) + len(rows.crushing) + (0 if conditions is None else conditions.n_local),
+        n_local=len(rows.frictional) + len(rows.crushing),
     )
     return KinematicForm(program, limits, rows, cone_program)
 

@@ -89,7 +89,6 @@ def crushing_conditions(found: CrushingOfProgram) -> Conditions:
             sp.vstack([sp.coo_array((values, place), shape=(rows, count)) for values, place, rows in cones])
         ),
         cone_sizes=np.concatenate(sizes),
-        n_local=count - n,
         motions=(sp.csr_array(motions.shape), motions),
     )
 

@@ -44,7 +44,6 @@ def torsion_conditions(
         cost=rows.cost,
         cones=rows.cones,
         cone_sizes=rows.cone_sizes,
-        n_local=0,
         motions=(motions, sp.csr_array(motions.shape)),
     )
 

@@ -11,9 +11,6 @@ from mbla.arrays import FloatArray
 from mbla.program.program import Program
 from mbla.solution.cone_solvers.cone_vectors import ConeVectors
 
-DISTANCE = 1e-10
-"""From the border of its cone, over its size, that a slack is moved to."""
-
 
 @dataclass(frozen=True)
 class ConditionCones:
@@ -59,9 +56,9 @@ class ConditionCones:
         """‖z̄‖ − z_0 of every cone, where that is positive, (n_cones,), from (n_slacks,)."""
         return np.maximum(self.cones.tails(z) - z[self.cones.head], 0.0)
 
-    def pulled_inside(self, s: FloatArray) -> FloatArray:
-        """Slacks, (n_slacks,), strictly inside."""
-        return self.cones.pulled_inside(s, DISTANCE, np.ones(len(self.cones.sizes)))
+    def pulled_inside(self, s: FloatArray, distance: float) -> FloatArray:
+        """Slacks, (n_slacks,), strictly inside, by a distance over their size."""
+        return self.cones.pulled_inside(s, distance, np.ones(len(self.cones.sizes)))
 
     def inside_by(self, z: FloatArray, opening: float) -> FloatArray:
         """Multipliers, (n_slacks,), inside by a share of the largest."""

@@ -20,8 +20,8 @@ unknowns ψ, and cones @ ψ beside the contact velocities (:mod:`mbla.program.co
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import replace
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
 
 import numpy as np
 import scipy.sparse as sp
@@ -30,6 +30,7 @@ from mbla.arrays import FloatArray
 from mbla.process.stopwatch import stage
 from mbla.program.program import Program
 from mbla.program.yield_conditions import YieldLimits, yield_violation
+from mbla.solution.associative.augmented_step import augmented_solver
 from mbla.solution.associative.condition_cones import ConditionCones
 from mbla.solution.linear_algebra.block_products import block_diagonal, inverses
 from mbla.solution.linear_algebra.bordered_system import PROGRESS, ROUNDS, bordered_solver
@@ -39,12 +40,12 @@ TINY = 1e-100
 
 
 @np.errstate(over="ignore", invalid="ignore")
-def force_metric(limits: YieldLimits, x: FloatArray) -> sp.csr_array:
-    """Inverse Hessian of the barriers of all yield conditions at forces strictly inside, block-diagonal.
+def force_metric(limits: YieldLimits, x: FloatArray) -> FloatArray:
+    """Inverse Hessian of the barriers of all yield conditions at forces strictly inside, a block for each point.
 
     Points without shear strength keep T = 0. Not finite where squares of forces are beyond the range of numbers.
 
-    x : (n_points, components)  non-dimensional, compression positive; the matrix has a row for each of its numbers
+    x : (n_points, components)  non-dimensional, compression positive; the blocks are (n_points, components, components)
     """
     mu, s = limits.friction, limits.cohesion + limits.friction * x[:, 0]
     t = x[:, 1:]
@@ -62,7 +63,7 @@ def force_metric(limits: YieldLimits, x: FloatArray) -> sp.csr_array:
     inverse = _inverse(hessian)
     inverse[shearless, 1:, :] = 0.0
     inverse[shearless, :, 1:] = 0.0
-    return block_diagonal(inverse)
+    return inverse
 
 
 @np.errstate(over="ignore", invalid="ignore")
@@ -138,22 +139,70 @@ def repaired_forces(
     if slacks is None and program.conditions is not None:
         return None
     further = ConditionCones.of(program)
-    x, s, factor, best, least = forces, further.none if slacks is None else slacks, load_factor, None, np.inf
-    for _ in range(ROUNDS + 1):
-        off = float(np.abs(further.unbalanced(x, s, factor)).max(initial=0.0))
-        excess = max(float(yield_violation(x, program.limits).max(initial=0.0)), further.lack(s).max(initial=0.0))
-        rounding = FORCE_ROUNDING * max(float(np.abs(x).max(initial=0.0)), float(np.abs(s).max(initial=0.0)))
-        if excess <= max(inside, rounding) and off <= min(least, max(EQUILIBRIUM_TOLERANCE, rounding)):
-            enough = off <= max(BALANCED, rounding) or off > PROGRESS * least
-            best, least = (x, factor), off
+    given = _Forces(forces, further.none if slacks is None else slacks, load_factor)
+    best = _repaired(program, further, given, inside, NORMAL)
+    if best is None and program.conditions is not None:
+        best = _repaired(program, further, given, inside, AUGMENTED)
+    return best
+
+
+@dataclass(frozen=True)
+class _Forces:
+    """Forces x, (n_points, components), slacks s, (n_slacks,), and load factor; or changes of these."""
+
+    x: FloatArray
+    s: FloatArray
+    factor: float
+
+    def plus(self, change: _Forces, share: float = 1.0) -> _Forces:
+        return _Forces(self.x + share * change.x, self.s + share * change.s, self.factor + share * change.factor)
+
+    @property
+    def rounding(self) -> float:
+        return FORCE_ROUNDING * max(float(np.abs(self.x).max(initial=0.0)), float(np.abs(self.s).max(initial=0.0)))
+
+
+@dataclass(frozen=True)
+class _Way:
+    """How steps are found.
+
+    rounds    : of them at most
+    distance  : from the border of its cone, over its size, that a slack is moved to before
+    augmented : by the augmented system, and no further than slacks stay inside
+    """
+
+    rounds: int
+    distance: float
+    augmented: bool
+
+
+NORMAL, AUGMENTED = _Way(ROUNDS, 1e-10, augmented=False), _Way(12, 1e-13, augmented=True)
+
+BORDER = 0.999
+"""Share of the way to the border of a cone that a step goes."""
+
+
+def _repaired(
+    program: Program, further: ConditionCones, given: _Forces, inside: float, way: _Way
+) -> tuple[FloatArray, float] | None:
+    now, best, least = given, None, np.inf
+    for _ in range(way.rounds + 1):
+        off = float(np.abs(further.unbalanced(now.x, now.s, now.factor)).max(initial=0.0))
+        excess = max(
+            float(yield_violation(now.x, program.limits).max(initial=0.0)), further.lack(now.s).max(initial=0.0)
+        )
+        if excess <= max(inside, now.rounding) and off <= min(least, max(EQUILIBRIUM_TOLERANCE, now.rounding)):
+            enough = off <= max(BALANCED, now.rounding) or off > PROGRESS * least
+            best, least = (now.x, now.factor), off
             if enough:
                 break
-        x, s = _pulled_inside(program, x), further.pulled_inside(s)
-        step = _static_correction(program, further, x, s, factor)
+        now = _Forces(_pulled_inside(program, now.x), further.pulled_inside(now.s, way.distance), now.factor)
+        step = _static_correction(program, further, now, way)
         if step is None:
             break
-        x, s, factor = x + step[0], s + step[1], factor + step[2]
-        if np.abs(x).max(initial=0.0) > RUNAWAY * (1.0 + np.abs(forces).max(initial=0.0)):
+        longest = BORDER * further.cones.step_to_boundary(now.s, step.s) if way.augmented else 1.0
+        now = now.plus(step, min(1.0, longest))
+        if np.abs(now.x).max(initial=0.0) > RUNAWAY * (1.0 + np.abs(given.x).max(initial=0.0)):
             break
     return best
 
@@ -192,30 +241,72 @@ def _pulled_inside(program: Program, x: FloatArray) -> FloatArray:
     return inside
 
 
-def _static_correction(
-    program: Program, further: ConditionCones, x: FloatArray, s: FloatArray, factor: float
-) -> tuple[FloatArray, FloatArray, float] | None:
+def _static_correction(program: Program, further: ConditionCones, now: _Forces, way: _Way) -> _Forces | None:
     """Least change of forces, slacks and load factor, in the barrier's metric, that restores equilibrium."""
-    limits = program.limits
+    limits, x = program.limits, now.x
     least = NO_FORCE * max(float(np.abs(x).max(initial=0.0)), 1e-280)  # a steeper cone has none: no digits are left
     needed = 2.0 * np.linalg.norm(x[:, 1:], axis=1) / np.maximum(x[:, 0], least)
-    weights = force_metric(replace(limits, friction=np.minimum(limits.friction, np.maximum(STEEP, needed))), x)
-    of_slacks = further.inverse_hessian(s)
-    matrix, held = further.moving.equilibrium_matrix, further.held
+    limits = replace(limits, friction=np.minimum(limits.friction, np.maximum(STEEP, needed)))
+    free = 1e-4 * max(abs(now.factor), 1e-3)
+    change_of = (_augmented if way.augmented else _normal)(further, limits, now, free)
+    if change_of is None:
+        return None
+    change = _Forces(np.zeros_like(x), np.zeros_like(now.s), 0.0)
+    for _ in range(4):  # refinement: the metric spans many decades
+        moved = now.plus(change)
+        more = change_of(-further.unbalanced(moved.x, moved.s, moved.factor))
+        if more is None:
+            return None
+        change = change.plus(more)
+    return change
+
+
+ChangeOf = Callable[[FloatArray], _Forces | None]
+"""The change that takes away what is unbalanced, (n_rows + n_unknowns,); None where it is no number."""
+
+
+def _normal(further: ConditionCones, limits: YieldLimits, now: _Forces, free: float) -> ChangeOf | None:
+    matrix, held, live = further.moving.equilibrium_matrix, further.held, further.moving.live_load
+    weights, of_slacks = block_diagonal(force_metric(limits, now.x)), further.cones.inverse_hessian(now.s)
     normal = further.with_slacks(matrix @ weights @ matrix.T, of_slacks)
-    free = 1e-4 * max(abs(factor), 1e-3)
-    solve = bordered_solver(normal, further.moving.live_load, free * free)  # not **, which raises beyond numbers
+    solve = bordered_solver(normal, live, free * free)  # not **, which raises beyond numbers
     if solve is None:
         return None
-    delta, of_s, delta_factor = np.zeros_like(x), np.zeros_like(s), 0.0
-    for _ in range(4):  # refinement: the metric spans many decades
-        y = solve(-further.unbalanced(x + delta, s + of_s, factor + delta_factor))
+
+    def change(rhs: FloatArray) -> _Forces | None:
+        y = solve(rhs)
         if not np.isfinite(y).all():
             return None
-        delta = delta + (weights @ (matrix.T @ y[:-1])).reshape(x.shape)
-        of_s = of_s + of_slacks @ (held.T @ y[:-1])
-        delta_factor += float(y[-1])
-    return delta, of_s, delta_factor
+        x = (weights @ (matrix.T @ y[:-1])).reshape(now.x.shape)
+        return _Forces(x, of_slacks @ (held.T @ y[:-1]), float(y[-1]))
+
+    return change
+
+
+def _augmented(further: ConditionCones, limits: YieldLimits, now: _Forces, free: float) -> ChangeOf | None:
+    matrix, held, live = further.moving.equilibrium_matrix, further.held, further.moving.live_load
+    of_points = block_diagonal(_roots(force_metric(limits, now.x)))
+    of_slacks = further.cones.root_of_inverse_hessian(now.s)
+    rows = sp.hstack([sp.csr_array(free * live[:, None]), matrix @ of_points, held @ of_slacks])
+    solve = augmented_solver(sp.csr_array(rows))
+    if solve is None:
+        return None
+
+    def change(rhs: FloatArray) -> _Forces | None:
+        y = solve(rhs)
+        if not np.isfinite(y).all():
+            return None
+        factor, x, s = np.split(y, [1, 1 + now.x.size])
+        return _Forces((of_points @ x).reshape(now.x.shape), of_slacks @ s, free * float(factor[0]))
+
+    return change
+
+
+def _roots(blocks: FloatArray) -> FloatArray:
+    """L with L Lᵀ each block, (n, k, k), of its unit-diagonal eigenvectors."""
+    size = np.sqrt(np.maximum(np.einsum("nii->ni", blocks), TINY))
+    values, vectors = np.linalg.eigh(blocks / size[:, :, None] / size[:, None, :])
+    return np.asarray(size[:, :, None] * vectors * np.sqrt(np.maximum(values, 0.0))[:, None, :])
 
 
 OPENINGS = (1e-13, 1e-11, 1e-9)
