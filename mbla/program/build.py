@@ -19,9 +19,11 @@ from mbla.errors import Notice
 from mbla.model.model import LoadCase, Model
 from mbla.process.stopwatch import stage
 from mbla.program.assemble import assemble
-from mbla.program.reductions import Reduced, allowed_reductions, reduce_program, unreduced
+from mbla.program.reductions import Reduced, allowed_reductions, reduce_program
 from mbla.program.reductions.steps import glued_step
-from mbla.program.resultants.assemble import ConvexProgram, assemble_convex, size_of_convex
+from mbla.program.resultants.conditions_of import with_conditions_of
+from mbla.program.resultants.interface_motions import CrushingInterfaces
+from mbla.program.resultants.twisting_interfaces import TwistingInterfaces
 
 
 @dataclass(frozen=True)
@@ -31,13 +33,14 @@ class CaseProgram:
     solids    : for blocks, and the way back to these
     load_case : on these
     reduced   : of the contact points: its parts, and what each reduction left out
-    convex    : with conditions on interfaces, solved together by associative flow; None where there are none
+    crushing, twisting : conditions on interfaces that the programs of the parts have; None where there are none
     """
 
     solids: Solids
     load_case: LoadCase
     reduced: Reduced
-    convex: ConvexProgram | None = None
+    crushing: CrushingInterfaces | None = None
+    twisting: TwistingInterfaces | None = None
 
 
 @stage("assemble")
@@ -47,16 +50,14 @@ def build_program(solids: Solids, load_case: LoadCase, analysis: AnalysisSection
     solids : of the model as it may move under the load case
     """
     model, contacts, case = solids.model, solids.contacts, solids.load_case(load_case)
-    convex, associative = None, analysis.flow_rule == "associative"
-    if has_conditions_on_interfaces(analysis, model, contacts):
-        convex = assemble_convex(model, contacts, case, analysis.contact_model)
-    if convex is not None and associative:
-        as_it_is = unreduced(convex.points, contacts)
-        return CaseProgram(solids, case, replace(as_it_is, steps=(glued_step(solids, size_of_convex(convex)),)), convex)
+    associative = analysis.flow_rule == "associative"
+    crushing = CrushingInterfaces.of(model, contacts) if crushes_by_interfaces(analysis, model, contacts) else None
+    twisting = TwistingInterfaces.of(model, contacts) if analysis.contact_model == "convex" else None
     program = assemble(model, contacts, case)
     reduced = reduce_program(model, contacts, program, allowed_reductions(analysis), associative=associative)
     steps = (glued_step(solids, reduced.steps[0].before), *reduced.steps)
-    return CaseProgram(solids, case, replace(reduced, steps=steps), convex)
+    parts = tuple(with_conditions_of(part, crushing, twisting) for part in reduced.parts)
+    return CaseProgram(solids, case, replace(reduced, parts=parts, steps=steps), crushing, twisting)
 
 
 def crushable_interfaces(model: Model, contacts: Contacts) -> BoolArray:
@@ -69,6 +70,11 @@ def has_conditions_on_interfaces(analysis: AnalysisSection, model: Model, contac
     """Whether the program has conditions on interfaces; without, joints crush at their contact points."""
     if analysis.contact_model == "convex":
         return True
+    return crushes_by_interfaces(analysis, model, contacts)
+
+
+def crushes_by_interfaces(analysis: AnalysisSection, model: Model, contacts: Contacts) -> bool:
+    """Whether joints crush by the resultants of their interfaces."""
     return takes_stress_blocks(analysis) and bool(crushable_interfaces(model, contacts).any())
 
 

@@ -20,6 +20,7 @@ from mbla.contacts.tied import tied
 from mbla.model.model import LoadCase, Model
 from mbla.program.assemble import yield_limits
 from mbla.solution.mechanics import AT_REST, contact_modes
+from mbla.solution.of_interfaces import of_interfaces
 from mbla.solution.solution import ContactMode, Mechanics, Solution, StandingResult
 from mbla.solution.thresholds import STILL
 from mbla.solution.verification.statics import contact_velocities
@@ -253,7 +254,7 @@ def with_derived(model: Model, contacts: Contacts, load_case: LoadCase, solution
             mechanics = replace(mechanics, mechanism=still, contact_velocities=moved)
             rule = rule_of(part, solution)
             contact_model = model_of(part, solution)
-            mechanics = _with_modes(solids, load_case, mechanics, rule, contact_model)
+            mechanics = _with_modes(solids, mechanics, rule, contact_model)
             found[id(getattr(solution, part))] = _without_rounding(mechanics, solids, model.blocks.sizes)
     parts = {part: found.get(id(getattr(solution, part))) for part in MOTIONS}
     return ties_apart(replace(solution, **parts), solids)  # type: ignore[arg-type]  # names and types are those of the parts
@@ -285,18 +286,10 @@ def _near(one: FloatArray, other: FloatArray) -> bool:
     return bool(np.abs(one - other).max(initial=0.0) <= ROUNDING * np.abs(one).max(initial=0.0))
 
 
-def _with_modes(
-    solids: Solids, load_case: LoadCase, mechanics: Mechanics, flow_rule: str, contact_model: str
-) -> Mechanics:
+def _with_modes(solids: Solids, mechanics: Mechanics, flow_rule: str, contact_model: str) -> Mechanics:
     """With modes of the contact points, and resultants of the interfaces where there are any."""
     limits, forces = yield_limits(solids.model, solids.contacts), mechanics.contact_forces
     slope = limits.dilatancy_by(flow_rule)
     if mechanics.interface_motions is None:
         return replace(mechanics, modes=contact_modes(forces, mechanics.contact_velocities, limits, slope))
-    from mbla.program.resultants import assemble_convex
-    from mbla.solution.resultants.of_interfaces import modes_of  # late: the law of interfaces is asked for rarely
-
-    convex = assemble_convex(solids.model, solids.contacts, solids.load_case(load_case), contact_model)
-    of_solids = replace(mechanics, mechanism=solids.solid_motions(mechanics.mechanism))
-    resultants = convex.resultants_of(forces)
-    return replace(mechanics, modes=modes_of(convex, of_solids, slope), resultants=resultants)
+    return of_interfaces(solids.model, solids.contacts, contact_model, mechanics, flow_rule)

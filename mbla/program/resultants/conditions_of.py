@@ -49,5 +49,5 @@ def with_conditions_of(
     if conditions is None:
         return program
     by_torsion, by_crushing = (sp.csr_array(motions @ each) for each in conditions.motions)
-    limits = replace(program.limits, compression=np.where(released, np.inf, program.limits.compression))
+    limits = program.limits.without_crushing(released)
     return replace(program, limits=limits, conditions=replace(conditions, motions=(by_torsion, by_crushing)))

@@ -95,7 +95,8 @@ def crushing_conditions(found: CrushingOfProgram) -> Conditions:
 
 def _eliminated(pieces: Pieces) -> tuple[FloatArray, FloatArray, FloatArray, _Vectors]:
     """ζ from ψ, (m, n_rows, c), and from the multipliers that remain, (m, n_rows, n_free); what both cost, side by
-    side, (m, c + n_free); the vectors."""
+    side, (m, c + n_free); the vectors.
+    """
     vectors, follow = _vectors(pieces)
     g, big = vectors.forms[:, :, 0], vectors.forms[:, :, 1:]
     of_motion = big.transpose(0, 2, 1) @ vectors.free  # (m, c, n): Gᵀζ

@@ -246,7 +246,7 @@ def says_it_falls(run: AssociativeRun, solution: ConeSolution) -> bool:
 def _proved(form: AssociativeForm, solution: ConeSolution) -> CertifiedGap:
     """Bounds that a solution proves."""
     state = LawState(form.forces(solution), form.velocities(solution), form.load_factor(solution), np.nan)
-    return certified_gap(form.program, state)
+    return certified_gap(form.program, state, form.slacks(solution))
 
 
 def _size(run: AssociativeRun, answer: ProvedAnswer) -> float:
