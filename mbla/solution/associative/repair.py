@@ -39,9 +39,17 @@ TINY = 1e-100
 """Stands for zero slack: its square and the square of its inverse are within the range of numbers."""
 
 
+def force_metric(limits: YieldLimits, x: FloatArray) -> sp.csr_array:
+    """Inverse Hessian of the barriers of all yield conditions at forces strictly inside, block-diagonal.
+
+    A row for each number of x, (n_points, components).
+    """
+    return block_diagonal(force_blocks(limits, x))
+
+
 @np.errstate(over="ignore", invalid="ignore")
-def force_metric(limits: YieldLimits, x: FloatArray) -> FloatArray:
-    """Inverse Hessian of the barriers of all yield conditions at forces strictly inside, a block for each point.
+def force_blocks(limits: YieldLimits, x: FloatArray) -> FloatArray:
+    """Blocks of ``force_metric``, one for each point.
 
     Points without shear strength keep T = 0. Not finite where squares of forces are beyond the range of numbers.
 
@@ -267,7 +275,7 @@ ChangeOf = Callable[[FloatArray], _Forces | None]
 
 def _normal(further: ConditionCones, limits: YieldLimits, now: _Forces, free: float) -> ChangeOf | None:
     matrix, held, live = further.moving.equilibrium_matrix, further.held, further.moving.live_load
-    weights, of_slacks = block_diagonal(force_metric(limits, now.x)), further.cones.inverse_hessian(now.s)
+    weights, of_slacks = force_metric(limits, now.x), further.cones.inverse_hessian(now.s)
     normal = further.with_slacks(matrix @ weights @ matrix.T, of_slacks)
     solve = bordered_solver(normal, live, free * free)  # not **, which raises beyond numbers
     if solve is None:
@@ -285,7 +293,7 @@ def _normal(further: ConditionCones, limits: YieldLimits, now: _Forces, free: fl
 
 def _augmented(further: ConditionCones, limits: YieldLimits, now: _Forces, free: float) -> ChangeOf | None:
     matrix, held, live = further.moving.equilibrium_matrix, further.held, further.moving.live_load
-    of_points = block_diagonal(_roots(force_metric(limits, now.x)))
+    of_points = block_diagonal(_roots(force_blocks(limits, now.x)))
     of_slacks = further.cones.root_of_inverse_hessian(now.s)
     rows = sp.hstack([sp.csr_array(free * live[:, None]), matrix @ of_points, held @ of_slacks])
     solve = augmented_solver(sp.csr_array(rows))
@@ -330,20 +338,20 @@ def repaired_mechanisms(program: Program, velocities: FloatArray) -> Iterator[Fl
             if moved is None:
                 break
             yield moved
-            u, before, lack = moved, lack, incompatibility(further, moved)
+            u, before, lack = moved, lack, incompatibility(program, moved)
             if lack == 0.0:
                 return
             if lack > PROGRESS * before:
                 break
 
 
-def incompatibility(further: ConditionCones, velocities: FloatArray) -> float:
+def incompatibility(program: Program, velocities: FloatArray) -> float:
     """Sum of μ s − v_N over points that cannot crush, where that is positive, and of what conditions lack.
 
     velocities : (n_rows + n_unknowns,)  non-dimensional
     """
-    program = further.moving
-    v = program.contact_velocities(velocities)
+    further = ConditionCones.of(program)
+    v = further.moving.contact_velocities(velocities)
     lack = np.maximum(program.limits.friction * np.linalg.norm(v[:, 1:], axis=1) - v[:, 0], 0.0)
     of_conditions = further.lack(further.held.T @ velocities)
     return float(lack[np.isinf(program.limits.compression)].sum() + of_conditions.sum())

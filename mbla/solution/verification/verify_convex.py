@@ -245,6 +245,10 @@ class InterfaceCase(Case):
         of_interfaces = np.maximum(np.minimum.reduceat(allowed, start), rounded_off)
         return super().forces_prove(forces, factor) and bool(np.all(self._excess(forces) <= of_interfaces))
 
+    def charge(self, forces: FloatArray, factor: float, motion: Motion) -> float:
+        """Nothing: forces, (n_points, 3) N, are repaired to less than rounding."""
+        return 0.0
+
     def dissipation(self, motion: Motion, most: float = np.inf) -> tuple[float, float]:
         """Power that joints dissipate at most by associative flow, and Σ of what motions lack in opening."""
         motions = self._motions(motion[1])
