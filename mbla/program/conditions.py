@@ -17,6 +17,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import scipy.sparse as sp
+from scipy.sparse.csgraph import connected_components
 
 from mbla.arrays import FloatArray, IntArray
 from mbla.model.solids.ragged import items_of_rows
@@ -39,6 +40,30 @@ class Conditions:
     cones: sp.csr_array
     cone_sizes: IntArray
     motions: tuple[sp.csr_array, sp.csr_array]
+
+    def of_points(self, numbers: IntArray) -> tuple[Conditions, IntArray]:
+        """Those of interfaces with some of the numbers of contact forces, (n,), alone; rows of their cones, (n_rows,).
+
+        The others hold where these forces are all there are.
+        """
+        kept = self.velocities[numbers]
+        n, (rows, columns) = len(self.cost), sp.coo_array(self.cones).coords
+        first, other = sp.coo_array(sp.csr_array(abs(self.velocities).T @ abs(self.velocities))).coords
+        head = np.repeat(np.cumsum(self.cone_sizes) - self.cone_sizes, self.cone_sizes)
+        beside = n + np.arange(len(head))
+        ends = np.concatenate([columns, first, n + head]), np.concatenate([n + rows, other, beside])
+        size = n + self.cones.shape[0]
+        label = connected_components(sp.coo_array((np.ones(len(ends[0])), ends), shape=(size, size)), directed=False)[1]
+        own = np.isin(label, label[:n][np.diff(sp.csc_array(kept).indptr) > 0])
+        unknowns, of_rows = np.flatnonzero(own[:n]), np.flatnonzero(own[n:])
+        chosen = Conditions(
+            velocities=sp.csr_array(kept[:, unknowns]),
+            cost=self.cost[unknowns],
+            cones=sp.csr_array(self.cones[of_rows][:, unknowns]),
+            cone_sizes=self.cone_sizes[own[n:][np.cumsum(self.cone_sizes) - self.cone_sizes]],
+            motions=(sp.csr_array(self.motions[0][:, unknowns]), sp.csr_array(self.motions[1][:, unknowns])),
+        )
+        return chosen, of_rows
 
     def moved(self, unknowns: FloatArray) -> FloatArray:
         """Motions of the interfaces of the model, (n_interfaces, 2, 6), from the unknowns, (n_unknowns,)."""

@@ -146,12 +146,42 @@ def repaired_forces(
     """
     if slacks is None and program.conditions is not None:
         return None
-    further = ConditionCones.of(program)
-    given = _Forces(forces, further.none if slacks is None else slacks, load_factor)
-    best = _repaired(program, further, given, inside, NORMAL)
-    if best is None and program.conditions is not None:
-        best = _repaired(program, further, given, inside, AUGMENTED)
+    none = np.zeros(0)
+    best, least = _repaired(program, _Forces(forces, none if slacks is None else slacks, load_factor), inside, NORMAL)
+    if slacks is None:
+        return best
+    for share in NEGLIGIBLE:
+        if least <= GOOD_EQUILIBRIUM:
+            break
+        found = _by_what_counts(program, _Forces(forces, slacks, load_factor), inside, share)
+        best, least = min((best, least), found, key=lambda each: each[1])
     return best
+
+
+def _by_what_counts(
+    program: Program, given: _Forces, inside: float, share: float
+) -> tuple[tuple[FloatArray, float] | None, float]:
+    """The repair without the points whose normal force is below a share of the largest, by the augmented system.
+
+    Interfaces without force are at the apex of their conditions, where nothing is left of the digits of their slacks.
+    """
+    normal, c = np.abs(given.x[:, 0]), program.components
+    kept = normal >= share * normal.max(initial=0.0)
+    if kept.all():
+        best, least = _repaired(program, given, inside, AUGMENTED)
+        return best, least
+    assert program.conditions is not None
+    numbers = np.flatnonzero(np.repeat(kept, c))
+    conditions, rows = program.conditions.of_points(numbers)
+    limits = YieldLimits(**{name: values[kept] for name, values in vars(program.limits).items()})
+    matrix = sp.csr_array(program.equilibrium_matrix[:, numbers])
+    less = replace(program, equilibrium_matrix=matrix, limits=limits, conditions=conditions, reduction=None)
+    best, least = _repaired(less, _Forces(given.x[kept], given.s[rows], given.factor), inside, AUGMENTED)
+    if best is None:
+        return None, np.inf
+    forces = np.zeros_like(given.x)
+    forces[kept] = best[0]
+    return (forces, best[1]), least
 
 
 @dataclass(frozen=True)
@@ -186,14 +216,22 @@ class _Way:
 
 NORMAL, AUGMENTED = _Way(ROUNDS, 1e-10, augmented=False), _Way(12, 1e-13, augmented=True)
 
+GOOD_EQUILIBRIUM = 1e-11
+"""Residual at which no other way is tried where there are conditions on interfaces: near the apex of these an interface
+is beyond what it carries by many times what is unbalanced."""
+
+NEGLIGIBLE = (0.0, 1e-9, 1e-7)
+"""Shares of the largest normal force below which points are left out, in turn."""
+
 BORDER = 0.999
 """Share of the way to the border of a cone that a step goes."""
 
 
 def _repaired(
-    program: Program, further: ConditionCones, given: _Forces, inside: float, way: _Way
-) -> tuple[FloatArray, float] | None:
-    now, best, least = given, None, np.inf
+    program: Program, given: _Forces, inside: float, way: _Way
+) -> tuple[tuple[FloatArray, float] | None, float]:
+    """The best forces and load factor, and what they leave unbalanced; None and infinity without."""
+    further, now, best, least = ConditionCones.of(program), given, None, np.inf
     for _ in range(way.rounds + 1):
         off = float(np.abs(further.unbalanced(now.x, now.s, now.factor)).max(initial=0.0))
         excess = max(
@@ -212,7 +250,7 @@ def _repaired(
         now = now.plus(step, min(1.0, longest))
         if np.abs(now.x).max(initial=0.0) > RUNAWAY * (1.0 + np.abs(given.x).max(initial=0.0)):
             break
-    return best
+    return best, least
 
 
 def carried_loads(program: Program, x: FloatArray) -> FloatArray:
