@@ -8,13 +8,10 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TypeVar
 
-from mbla.contacts import Contacts
-from mbla.contacts.findings import contacts_of
-from mbla.contacts.glue import held_model, solids_of
-from mbla.contacts.tied import tied
+from mbla.assembly import Assembly, build_assembly
 from mbla.deck import Deck, read_deck
 from mbla.errors import UsageError
-from mbla.model import Model, build_model
+from mbla.model import build_model
 from mbla.model.model import LoadCase, select_cases
 from mbla.process.run_options import RunOptions as RunOptions
 from mbla.process.sharing import Memory, sharing
@@ -125,12 +122,11 @@ def solved_case_by_case(
     model = build_model(deck)
     load_cases = select_cases(model, options.cases)
     read = time.perf_counter()
-    contacts = contacts_of(deck, model)
-    model = held_model(model, contacts)
+    assembly = build_assembly(deck, model)
     found = time.perf_counter()
     settings = solver_settings(deck.analysis)
     with timing() as stopwatch:
-        results = results_before(deck, model, contacts, settings, {"read": read - started, "contacts": found - read})
+        results = results_before(deck, assembly, settings, {"read": read - started, "contacts": found - read})
         results = replace(results, not_done=tuple(case.name for case in load_cases))
         yield results
         memory = Memory()
@@ -139,15 +135,15 @@ def solved_case_by_case(
             travels = load_case.travel is not None  # which of its positions is pushed is known when all are solved
             case = replace(load_case, pushover=None) if travels else load_case
             with sharing(memory):
-                solved = solve_case(deck, model, contacts, case, settings, status_file, progress, tell)
+                solved = solve_case(deck, assembly, case, settings, status_file, progress, tell)
             results = with_case(results, solved, time.perf_counter() - found, stopwatch)
             left = {each.deck_name for each in load_cases if each.name in results.not_done}
-            chosen = None if load_case.deck_name in left else position_to_push(load_case, model, results.cases)
+            chosen = None if load_case.deck_name in left else position_to_push(load_case, assembly.model, results.cases)
             if chosen is not None:
                 results = replace(results, not_done=(chosen.load_case.name, *results.not_done))
                 yield results
                 tell = _teller(at_work, results, found, stopwatch)
-                pushed = push_position(deck, model, contacts, chosen, settings, status_file, progress, tell)
+                pushed = push_position(deck, assembly, chosen, settings, status_file, progress, tell)
                 results = with_case(results, pushed, time.perf_counter() - found, stopwatch)
             yield as_expected(results, deck) if options.expected and not results.not_done else results
 
@@ -167,8 +163,7 @@ def _teller(at_work: Tell[Results], results: Results, found: float, stopwatch: S
 
 def solve_case(
     deck: Deck,
-    model: Model,
-    contacts: Contacts,
+    assembly: Assembly,
     load_case: LoadCase,
     settings: SolverSettings,
     status_file: StatusFile,
@@ -180,35 +175,33 @@ def solve_case(
     tell : told how to make the load case as far as it has come, where it is pushed on
     """
     log = _log_of(load_case, status_file, progress)
-    trials = trials_of(model, contacts, load_case, settings)
-    moving = model.of_case(load_case)
+    trials = trials_of(assembly, load_case, settings)
     settings = settings_for(load_case, settings)
     for case in trials:
-        program = build_program(tied(solids_of(moving, contacts, case)), case, settings.analysis)
+        program = build_program(assembly, case, settings.analysis)
         solution = solve(program, settings, log)
-        trials.answer = Answer(case, solution, verify(moving, contacts, case, solution))
+        trials.answer = Answer(case, solution, verify(assembly, case, solution))
     answer = trials.answer
     status = verified_status(answer.solution, answer.checks)
     status_file.remark(f"{load_case.name}: {status}")
     found = CaseResult(answer.load_case, answer.solution, answer.checks, status)
     solution = answer.solution
     if load_case.pushover is not None:
-        solution = _pushed(deck, moving, contacts, found, settings, log, tell)
+        solution = _pushed(deck, assembly, found, settings, log, tell)
     if deck.analysis.sensitivity is not False:
         from mbla.solution.sensitivity.sensitivity import with_sensitivity  # late: few decks ask for it
 
-        solution = with_sensitivity(deck, moving, contacts, answer.load_case, solution, answer.checks)
+        solution = with_sensitivity(deck, assembly, answer.load_case, solution, answer.checks)
     if deck.analysis.geometric_safety:
         from mbla.solution.limits.geometric_safety import with_geometric_safety  # late: few decks ask for it
 
-        solution = with_geometric_safety(moving, contacts, answer.load_case, solution, deck.analysis, log)
-    return _finished(moving, contacts, replace(found, solution=solution))
+        solution = with_geometric_safety(assembly, answer.load_case, solution, deck.analysis, log)
+    return _finished(assembly, replace(found, solution=solution))
 
 
 def push_position(
     deck: Deck,
-    model: Model,
-    contacts: Contacts,
+    assembly: Assembly,
     case: CaseResult,
     settings: SolverSettings,
     status_file: StatusFile,
@@ -216,11 +209,11 @@ def push_position(
     tell: Tell[CaseResult] = unheard,
 ) -> CaseResult:
     """A position of a travelling load that was solved, with its pushover; ``tell`` as in ``solve_case``."""
-    moving, log = model.of_case(case.load_case), _log_of(case.load_case, status_file, progress)
+    log = _log_of(case.load_case, status_file, progress)
     remarks = tuple(remark for remark in case.solution.remarks if remark.identifier != "brittle-ties")
     case = replace(case, solution=replace(case.solution, remarks=remarks))
-    solution = _pushed(deck, moving, contacts, case, settings, log, tell)
-    return _finished(moving, contacts, replace(case, solution=solution))
+    solution = _pushed(deck, assembly, case, settings, log, tell)
+    return _finished(assembly, replace(case, solution=solution))
 
 
 def _log_of(load_case: LoadCase, status_file: StatusFile, progress: Progress | None) -> Log:
@@ -236,8 +229,7 @@ def _log_of(load_case: LoadCase, status_file: StatusFile, progress: Progress | N
 
 def _pushed(
     deck: Deck,
-    moving: Model,
-    contacts: Contacts,
+    assembly: Assembly,
     case: CaseResult,
     settings: SolverSettings,
     log: Log,
@@ -247,13 +239,13 @@ def _pushed(
     from mbla.solution.pushover.curve import pushed  # late: few load cases are
 
     def so_far(make: Callable[[], Solution]) -> None:
-        tell(lambda: _finished(moving, contacts, replace(case, solution=make())))
+        tell(lambda: _finished(assembly, replace(case, solution=make())))
 
     solved = case.status is Status.SOLVED
-    return pushed(moving, contacts, deck.contacts, case.load_case, case.solution, settings, log, solved, so_far)
+    return pushed(assembly, deck.contacts, case.load_case, case.solution, settings, log, solved, so_far)
 
 
-def _finished(moving: Model, contacts: Contacts, case: CaseResult) -> CaseResult:
+def _finished(assembly: Assembly, case: CaseResult) -> CaseResult:
     """A load case with the remarks that are made last."""
-    remarks = (*case.solution.remarks, *brittle_remarks(moving, case.solution))
-    return with_remarks(moving, contacts, replace(case, solution=replace(case.solution, remarks=remarks)))
+    remarks = (*case.solution.remarks, *brittle_remarks(assembly.model.of_case(case.load_case), case.solution))
+    return with_remarks(assembly, replace(case, solution=replace(case.solution, remarks=remarks)))

@@ -10,7 +10,7 @@ import sys
 from functools import cache
 from pathlib import Path
 
-from mbla.contacts.findings import contacts_of
+from mbla.assembly import build_assembly
 from mbla.deck import read_deck
 from mbla.errors import DeckError, Fault
 from mbla.model import build_model
@@ -34,7 +34,7 @@ def refusal_of(path: Path) -> tuple[str, DeckError]:
     try:
         deck = read_deck(path)
         stage = "model"
-        contacts_of(deck, build_model(deck))
+        build_assembly(deck, build_model(deck))
     except DeckError as error:
         return stage, error
     raise AssertionError(f"{path.name} is not refused")

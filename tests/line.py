@@ -7,9 +7,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
+from mbla.assembly import Assembly, build_assembly
 from mbla.contacts import Contacts, find_contacts
-from mbla.contacts.findings import contacts_of
-from mbla.contacts.glue import held_model
 from mbla.deck import Deck, read_deck
 from mbla.model import Model, build_model
 from mbla.model.model import LoadCase
@@ -72,6 +71,11 @@ class Line:
     load_case: LoadCase
     program: Program
 
+    @property
+    def assembly(self) -> Assembly:
+        """Of model and contacts, as they are."""
+        return Assembly(self.model, self.contacts)
+
 
 def line_of(text: str, *overrides: str, case: int = 0) -> Line:
     """Read, build, find contacts, assemble."""
@@ -103,7 +107,7 @@ def solution_of(line: Line) -> Solution:
 def verified(line: Line) -> tuple[Solution, Checks, Status]:
     """Solve and verify."""
     solution = solution_of(line)
-    checks = verify(line.model, line.contacts, line.load_case, solution)
+    checks = verify(line.assembly, line.load_case, solution)
     return solution, checks, verified_status(solution, checks)
 
 
@@ -117,24 +121,23 @@ def load_factor(text: str, *overrides: str, case: int = 0) -> float:
 
 def case_of(text: str, *overrides: str, case: int = 0) -> tuple[Model, CaseResult]:
     """A load case as ``mbla run`` solves it: any contact model, glued blocks as one."""
-    model, _, (solved,) = cases_of(text, *overrides, chosen=slice(case, case + 1))
-    return model, solved
+    assembly, (solved,) = cases_of(text, *overrides, chosen=slice(case, case + 1))
+    return assembly.model, solved
 
 
-def cases_of(text: str, *overrides: str, chosen: slice = slice(None)) -> tuple[Model, Contacts, tuple[CaseResult, ...]]:
-    """Several load cases in the same way, with model and contacts."""
+def cases_of(text: str, *overrides: str, chosen: slice = slice(None)) -> tuple[Assembly, tuple[CaseResult, ...]]:
+    """Several load cases in the same way, with their assembly."""
     with TemporaryDirectory() as folder:
         path = Path(folder) / "deck.yaml"
         path.write_text(text, encoding="utf-8")
         deck = read_deck(path, overrides)
         model = build_model(deck)
-        contacts = contacts_of(deck, model)
-        model = held_model(model, contacts)
+        assembly = build_assembly(deck, model)
         settings, status_file = solver_settings(deck.analysis), StatusFile(io.StringIO(), "test")
         solved = tuple(
-            solve_case(deck, model, contacts, each, settings, status_file, None) for each in model.load_cases[chosen]
+            solve_case(deck, assembly, each, settings, status_file, None) for each in model.load_cases[chosen]
         )
-        return with_loads_found(model, solved), contacts, solved
+        return with_loads_found(assembly, solved), solved
 
 
 def factor_of(text: str, *overrides: str, case: int = 0) -> float:

@@ -11,7 +11,7 @@ from pathlib import Path
 import mbla
 
 PACKAGE = Path(mbla.__file__).parent
-STAGES = ("deck", "model", "contacts", "program", "solution", "results", "sweeps")
+STAGES = ("deck", "model", "contacts", "assembly", "program", "solution", "results", "sweeps")
 WHOLE_LINE = ("api", "run")
 """modules beside the stages that call all of them: only what runs decks again and again stands to their right"""
 SHARED = ("arrays", "errors", "process")

@@ -45,7 +45,7 @@ def stop_at(name: str, error: BaseException, patch: pytest.MonkeyPatch) -> None:
     solve = run_deck.solve_case
 
     def solve_or_stop(*of_case: Any) -> CaseResult:
-        if of_case[3].name == name:
+        if of_case[2].name == name:
             raise error
         solved: CaseResult = solve(*of_case)
         return solved

@@ -105,7 +105,7 @@ def test_what_has_no_path_is_said_to_have_none(tmp_path: Path) -> None:
     assert history_words(results) == ()
     deck, _ = rebuilt(results)
     assert deck is not None
-    assert paths_again(deck, results.model, results.contacts, results.cases[0]) == ()
+    assert paths_again(deck, results.assembly, results.cases[0]) == ()
     assert history_words(replace(results, paths_again=())) == ("no path of elastic joints to follow anew: push",)
 
 
@@ -121,9 +121,7 @@ def test_a_path_that_an_accuracy_asks_for_is_missed(reference: Results, slides: 
     def told(results: Results, *rows: PathByStiffness) -> str:
         deck, _ = rebuilt(results)
         assert deck is not None
-        return " ".join(
-            held_against_deck(deck, results.model, results.contacts, beside(results, *rows), done=True).differences
-        )
+        return " ".join(held_against_deck(deck, results.assembly, beside(results, *rows), done=True).differences)
 
     assert "the deck asks for the paths of joints of other stiffnesses" in told(reference)
     assert "other stiffnesses than the deck leads to" in told(slides, PathByStiffness(0.3, STATICS))
@@ -141,7 +139,7 @@ def test_a_load_factor_of_other_joints_is_found_again_or_differs(reference: Resu
     deck, _ = rebuilt(reference)
     assert deck is not None
     case = beside(reference, PathByStiffness(0.2, 0.48), PathByStiffness(1.0, STATICS))
-    found, paths = Found(), paths_again(deck, reference.model, reference.contacts, case)
+    found, paths = Found(), paths_again(deck, reference.assembly, case)
     held_against_paths(found, reference.model, case, paths)
     assert [path.agrees for path in paths] == [False, True]
     assert ["the file has 0.48 g with 0.2" in words for words in found.differences] == [True]

@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from mbla.assembly.rigid_bodies import rigid_bodies
 from mbla.errors import FileError
 from mbla.results.collapse.rigid_parts import rigid_parts
 from mbla.results.verify import verify_file
@@ -105,11 +106,13 @@ analysis: {flow_rule: associative}
 
 
 def test_what_moves_together_does_so_whatever_rounding_says(tmp_path: Path) -> None:
-    """The rope alone gets longer; in the load cases for its force nothing moves but what feels that."""
+    """The rope alone gets longer; in the load cases for its force nothing moves but what measures it."""
     (tmp_path / "deck.h5").write_bytes(image_of_run(tmp_path, GUIDED))
     results, disagreements = verify_file(tmp_path / "deck.h5")
     assert disagreements == ()
     pulled = results.case("pulled")
     assert pulled.solution.mechanics is not None
-    parts = rigid_parts(results.model, results.contacts, pulled.solution.mechanics.mechanism)
+    parts = rigid_parts(
+        results.model, rigid_bodies(results.model, results.contacts), pulled.solution.mechanics.mechanism
+    )
     assert parts.tolist() == [1, 1]

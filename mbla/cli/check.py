@@ -7,12 +7,9 @@ from dataclasses import asdict
 
 import numpy as np
 
-from mbla.contacts import Contacts
-from mbla.contacts.findings import contacts_of
-from mbla.contacts.glue import held_model, solids_of
-from mbla.contacts.tied import tied
+from mbla.assembly import Assembly, build_assembly
 from mbla.deck import Deck
-from mbla.model import Model, build_model
+from mbla.model import build_model
 from mbla.model.model import LoadCase, select_cases
 from mbla.process.run_options import RunOptions
 from mbla.program.build import build_program
@@ -40,22 +37,21 @@ def check(deck: Deck, options: RunOptions, vtu: bool, started: float) -> tuple[R
     """
     model = build_model(deck)
     read = time.perf_counter()
-    contacts = contacts_of(deck, model)
-    model = held_model(model, contacts)
+    assembly = build_assembly(deck, model)
     settings, seconds = solver_settings(deck.analysis), {"read": read - started, "contacts": time.perf_counter() - read}
-    results = results_before(deck, model, contacts, settings, seconds)
+    results = results_before(deck, assembly, settings, seconds)
     if vtu:
         from mbla.results.vtu.mesh_files import write_model_vtu
 
         with OutputFolder(options.folder_for(deck.path), f"{deck.path.stem}_check", options.force) as out:
             write_model_vtu(results, out)
-    return results, {case.name: needs_of(deck, model, contacts, case) for case in select_cases(model, options.cases)}
+    return results, {case.name: needs_of(deck, assembly, case) for case in select_cases(model, options.cases)}
 
 
-def needs_of(deck: Deck, model: Model, contacts: Contacts, load_case: LoadCase) -> CaseNeeds:
+def needs_of(deck: Deck, assembly: Assembly, load_case: LoadCase) -> CaseNeeds:
     """What of the model reaches the solver, the size of its first cone programs, and who solves them."""
     analysis = settings_for(load_case, solver_settings(deck.analysis)).analysis
-    built = build_program(tied(solids_of(model.of_case(load_case), contacts, load_case)), load_case, analysis)
+    built = build_program(assembly, load_case, analysis)
     reduced = built.reduced
     unknowns = sum(len(part.with_own_motions.dead_load) for part in reduced.parts)
     programs = [kinematic_form(part, part.limits).cone_program for part in reduced.parts if np.any(part.live_load)]

@@ -34,11 +34,11 @@ class Contacts:
                    zero
     solid_of_block : (n_blocks,)      blocks that are glued to each other have the number of one rigid body, numbered
                    in the order of first blocks; None where every block is one (see :mod:`mbla.contacts.glue`)
-    cut          : (n_interfaces,)    1, -1: their forces act on the last block too, the gauge, as on body b or on body
-                   a; 0: they do not; None without a gauge (see :mod:`mbla.contacts.gauge`); in no file
+    cut          : (n_interfaces,)    1, -1: their forces act on the last block too, a load cell, as on body b or on
+                   body a; 0: they do not; None without one (see :mod:`mbla.assembly.load_cell`); in no file
 
     ties         : in what the solver sees, ties as further interfaces behind all others, of one contact point each
-                   (:mod:`mbla.contacts.tied`); None where there are none
+                   (:mod:`mbla.assembly.ties`); None where there are none
 
     Internal interfaces (glued), and those whose joint law is open, are none of these.
     """

@@ -12,7 +12,6 @@ from mbla.contacts.broad_phase import find_block_pairs
 from mbla.contacts.contacts import ContactReport, Contacts
 from mbla.contacts.facets import Facets, build_facets
 from mbla.contacts.glue import Glue, glue_blocks
-from mbla.contacts.held_twice import counted_once
 from mbla.contacts.joints import joints_of_interfaces
 from mbla.contacts.narrow_phase import Patches, Verdicts, find_patches, judge
 from mbla.contacts.notices import outline_notices, report_notices
@@ -20,6 +19,7 @@ from mbla.contacts.outlines.corners import areas_and_centroids, needed_corners
 from mbla.contacts.outlines.overlay import Overlays, frames_from_normals
 from mbla.contacts.outlines.points import in_pieces, interface_points
 from mbla.contacts.outlines.refine import InterfacePoints
+from mbla.contacts.overlapping_supports import without_overlapping_supports
 from mbla.contacts.overlaps import SLIGHT, find_overlaps
 from mbla.contacts.report import Findings, both_fixed, build_report, held_blocks, misses_within, unsupported_parts
 from mbla.contacts.third_block import SeparatedPairs, drop_pairs_separated_by_third_block
@@ -72,7 +72,7 @@ def _found(model: Model, section: ContactsSection) -> Contacts:
     glue = glue_blocks(model, bodies[laws.glued])
     inside = laws.glued | _inside(model, glue, bodies)
     rows = np.flatnonzero(~laws.open & ~inside)
-    kept, source, twice = counted_once(
+    kept, source, twice = without_overlapping_supports(
         model, glue.held | model.fixed, movable.take(rows), laws, rows, section.tolerance
     )
     order = _order(kept, np.ones(len(kept), dtype=bool))

@@ -5,8 +5,8 @@ The force through a cut along a direction d is linear in them, F = Σ s d·x wit
 on the chosen side is that on body b, -1 where it is that on body a, and its values fill an interval (static theorem).
 Nothing is said about how the structure moves, so that every state of a structure without dilatancy lies in it too.
 
-Its ends are load factors. Of a gauge that feels F along d it is the reaction, and its support gives way
-(:mod:`mbla.contacts.gauge`, :mod:`mbla.model.settlement`)::
+Its ends are load factors. Of a load cell that measures F along d it is the reaction, and its support gives way
+(:mod:`mbla.assembly.load_cell`, :mod:`mbla.model.settlement`)::
 
     F = R0 − λ U        greatest λ: least F;        with −d in the place of d: greatest F
 
@@ -81,7 +81,7 @@ def build_objective(
 
 @dataclass(frozen=True)
 class _Sought:
-    """Sides of a cut by body, or ties; the direction in which a gauge feels them; the force in words."""
+    """Sides of a cut by body, or ties; the direction in which a load cell measures them; the force in words."""
 
     sides: IntArray
     ties: IntArray

@@ -20,6 +20,7 @@ from mbla.contacts.contacts import Contacts, TieContacts
 from mbla.model.model import LoadCase, Model
 from mbla.model.solids.measures import connected_labels
 from mbla.process.sharing import shared
+from mbla.program.facts import ModelFacts
 from mbla.program.program import Program, Scaling
 from mbla.program.reductions.restrict import guide_projector, guided_program
 from mbla.program.stiffness_shares import stiffness_areas
@@ -35,7 +36,7 @@ def assemble(model: Model, contacts: Contacts, load_case: LoadCase, *, own: bool
     With guided blocks it is a reduction of the program in which these are free.
     """
     program = _assemble_unguided(model, contacts, load_case, own)
-    return guided_program(program, program.allowed)
+    return guided_program(program, program.facts.allowed)
 
 
 def _assemble_unguided(model: Model, contacts: Contacts, load_case: LoadCase, own: bool) -> Program:
@@ -53,13 +54,15 @@ def _assemble_unguided(model: Model, contacts: Contacts, load_case: LoadCase, ow
         dead_load=scaling.row * dead,
         live_load=scaling.row * live * scaling.live,
         limits=yield_limits(model, contacts).scaled(1.0 / (scaling.force * scaling.units)),
-        free=free,
-        n_blocks=len(model.blocks),
         scaling=scaling,
-        allowed=guide_projector(model, free, scaling),
-        settles=load_case.settlement is not None,
-        areas=stiffness_areas(contacts),
-        brittle=None if contacts.ties is None else brittle_points(contacts, contacts.ties),
+        facts=ModelFacts(
+            free=free,
+            n_blocks=len(model.blocks),
+            areas=stiffness_areas(contacts),
+            settles=load_case.settlement is not None,
+            allowed=guide_projector(model, free, scaling),
+            brittle=None if contacts.ties is None else brittle_points(contacts, contacts.ties),
+        ),
     )
 
 
@@ -170,7 +173,7 @@ def equilibrium_matrix(model: Model, contacts: Contacts, free: IntArray) -> sp.c
     bodies = contacts.bodies[contacts.interface_of_point]
     matrix = _matrix(n_bodies, model.blocks.centroids, bodies, contacts.points, contacts.frames, free)
     if contacts.cut_of_point is not None:
-        matrix = sp.csr_array(matrix + _on_gauge(contacts, matrix.shape))
+        matrix = sp.csr_array(matrix + _on_load_cell(contacts, matrix.shape))
     if contacts.ties is None:
         return matrix
     acts = np.ones((len(bodies), 3))
@@ -179,8 +182,8 @@ def equilibrium_matrix(model: Model, contacts: Contacts, free: IntArray) -> sp.c
     return sp.csr_array(in_lines + _further(n_bodies, model, contacts.ties, free, len(bodies)))
 
 
-def _on_gauge(contacts: Contacts, shape: tuple[int, int]) -> sp.csr_array:
-    """What contact forces do to a gauge, the last block: forces through the cut, without moments."""
+def _on_load_cell(contacts: Contacts, shape: tuple[int, int]) -> sp.csr_array:
+    """What contact forces do to a load cell, the last block: forces through the cut, without moments."""
     assert contacts.cut_of_point is not None
     points = np.flatnonzero(contacts.cut_of_point)
     forces = contacts.cut_of_point[points, None, None] * contacts.frames[points]

@@ -1,8 +1,8 @@
-"""From the solids of a model to the program that is solved: contact points or interfaces, and what reductions leave.
+"""From the assembly of a model to the program that is solved: contact points or interfaces, and what reductions leave.
 
-Every load case takes this way, whatever its contact model; the solids keep the way back to the blocks. Conditions on
-interfaces are torsion where it is asked for, and crushing wherever it can be. Where a program has none, notices state
-the known errors of the contact model for the joints of a model.
+Every load case takes this way, whatever its contact model; the rigid bodies keep the way back to the blocks. Conditions
+on interfaces are torsion where it is asked for, and crushing wherever it can be. Where a program has none, notices
+state the known errors of the contact model for the joints of a model.
 """
 
 from __future__ import annotations
@@ -12,8 +12,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from mbla.arrays import BoolArray
+from mbla.assembly.assembly import Assembly
+from mbla.assembly.rigid_bodies import RigidBodies
 from mbla.contacts.contacts import Contacts
-from mbla.contacts.glue import Solids
 from mbla.deck.sections.analysis import AnalysisSection
 from mbla.errors import Notice
 from mbla.model.model import LoadCase, Model
@@ -30,13 +31,13 @@ from mbla.program.resultants.twisting_interfaces import TwistingInterfaces
 class CaseProgram:
     """The program of one load case.
 
-    solids    : for blocks, and the way back to these
-    load_case : on these
+    bodies    : what is solved for, and the way back to the blocks
+    load_case : on the bodies
     reduced   : of the contact points: its parts, and what each reduction left out
     crushing, twisting : conditions on interfaces that the programs of the parts have; None where there are none
     """
 
-    solids: Solids
+    bodies: RigidBodies
     load_case: LoadCase
     reduced: Reduced
     crushing: CrushingInterfaces | None = None
@@ -44,20 +45,18 @@ class CaseProgram:
 
 
 @stage("assemble")
-def build_program(solids: Solids, load_case: LoadCase, analysis: AnalysisSection) -> CaseProgram:
-    """The program of a load case on blocks by the contact model, the flow rule and the reductions of the analysis.
-
-    solids : of the model as it may move under the load case
-    """
-    model, contacts, case = solids.model, solids.contacts, solids.load_case(load_case)
+def build_program(assembly: Assembly, load_case: LoadCase, analysis: AnalysisSection) -> CaseProgram:
+    """The program of a load case on blocks by the contact model, the flow rule and the reductions of the analysis."""
+    bodies = assembly.of(load_case)
+    model, contacts, case = bodies.model, bodies.contacts, bodies.load_case(load_case)
     associative = analysis.flow_rule == "associative"
     crushing = CrushingInterfaces.of(model, contacts) if crushes_by_interfaces(analysis, model, contacts) else None
     twisting = TwistingInterfaces.of(model, contacts) if analysis.contact_model == "convex" else None
     program = assemble(model, contacts, case)
     reduced = reduce_program(model, contacts, program, allowed_reductions(analysis), associative=associative)
-    steps = (glued_step(solids, reduced.steps[0].before), *reduced.steps)
+    steps = (glued_step(bodies, reduced.steps[0].before), *reduced.steps)
     parts = tuple(with_conditions_of(part, crushing, twisting) for part in reduced.parts)
-    return CaseProgram(solids, case, replace(reduced, parts=parts, steps=steps), crushing, twisting)
+    return CaseProgram(bodies, case, replace(reduced, parts=parts, steps=steps), crushing, twisting)
 
 
 def crushable_interfaces(model: Model, contacts: Contacts) -> BoolArray:

@@ -16,8 +16,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 import scipy.sparse as sp
 
-from mbla.arrays import BoolArray, FloatArray, IntArray
+from mbla.arrays import FloatArray
 from mbla.program.conditions import Conditions
+from mbla.program.facts import ModelFacts
+from mbla.program.lift import Lift
 from mbla.program.yield_conditions.limits import YieldLimits
 
 
@@ -56,20 +58,6 @@ class Scaling:
 
 
 @dataclass(frozen=True)
-class Reduction:
-    """A program restricted to fewer unknowns, and the exact way back: u = velocities @ q, x = forces @ y.
-
-    full       : the program that was reduced
-    velocities : (n_rows of the full program, n_rows)
-    forces     : (n_force components of the full program, n_force components)
-    """
-
-    full: Program
-    velocities: sp.csr_array
-    forces: sp.csr_array
-
-
-@dataclass(frozen=True)
 class Program:
     """One load case, non-dimensional.
 
@@ -77,38 +65,25 @@ class Program:
                          each free block
     dead_load, live_load : (n_rows,)
     limits             : yield limits of the contact points, forces in the units of ``scaling``
-    free               : (n_free,) the block to which each six rows of the spatial program belong
-    n_blocks           : blocks of the model
+    facts              : of the model
     components         : of the force at a contact point: 3 (N, T1, T2), or 2 (N, T) in a planar program
-    reduction          : where this program came from, None for that of the full model
-    guided             : the reduction is to motions that guides allow
-    halved             : the reduction is to one half of a structure with a plane of symmetry
-    allowed            : of the program of the full model: (n_rows, n_rows) projector on the motions that guides allow,
-                         None where no block is guided
-    settles            : a support gives way: the reference of the load factor is chosen, and 0 does not show that the
-                         structure stands
-    areas              : of the program of the full model: (n_points,) by which contact points share stiffness
-                         (:mod:`mbla.program.stiffness_shares`); None elsewhere
+    reduction          : the way back to the program of the full model; None for that itself
+    of_blocks          : the way back to the program whose rows are those of blocks, where guides or a plane of symmetry
+                         leave fewer; None where its own are
+    guided             : it is in motions that guides allow
     conditions         : on the resultants of interfaces; None where there are none
-    brittle            : of the program of the full model: (n_points, 2) whether a point carries nothing once it has
-                         given way at its greatest force, and at its least; None where none does
     """
 
     equilibrium_matrix: sp.csr_array
     dead_load: FloatArray
     live_load: FloatArray
     limits: YieldLimits
-    free: IntArray
-    n_blocks: int
     scaling: Scaling
+    facts: ModelFacts
     components: int = 3
-    reduction: Reduction | None = None
+    reduction: Lift | None = None
+    of_blocks: Lift | None = None
     guided: bool = False
-    halved: bool = False
-    allowed: sp.csr_array | None = None
-    settles: bool = False
-    areas: FloatArray | None = None
-    brittle: BoolArray | None = None
     conditions: Conditions | None = None
 
     def contact_velocities(self, velocities: FloatArray) -> FloatArray:
@@ -129,14 +104,28 @@ class Program:
             conditions=None,
         )
 
+    @property
+    def lift(self) -> Lift:
+        """The way back to the program of the full model, from that one too."""
+        return Lift.identity(self) if self.reduction is None else self.reduction
+
+    @property
+    def full(self) -> Program:
+        """The program of the full model."""
+        return self if self.reduction is None else self.reduction.full
+
     def without_live_load(self) -> Program:
-        """The part of it that does not depend on the live load, down to the program of the full model."""
-        way = self.reduction
+        """The part of it that does not depend on the live load, and ways back to what does not."""
+
+        def without(lift: Lift | None) -> Lift | None:
+            return None if lift is None else replace(lift, full=lift.full.without_live_load())
+
         return replace(
             self,
             live_load=np.zeros_like(self.live_load),
             scaling=replace(self.scaling, live=1.0),
-            reduction=None if way is None else replace(way, full=way.full.without_live_load()),
+            reduction=without(self.reduction),
+            of_blocks=without(self.of_blocks),
         )
 
     def in_unit_of_force(self, unit: float) -> Program:
@@ -166,7 +155,7 @@ class Program:
         1 for the program of the full model. What depends on the size of load factors must not change because parts
         that cannot interact are solved together or apart.
         """
-        dead, live = (np.linalg.norm(load, axis=1) for load in self._loads_of_blocks())
+        dead, live = (np.linalg.norm(self._of_blocks(load), axis=1) for load in (self.dead_load, self.live_load))
         if not np.any(dead) or not np.any(live):
             return 1.0
         return float(dead[dead > 0].mean() / np.sqrt(np.mean(live**2)))
@@ -181,29 +170,21 @@ class Program:
         live = float(np.linalg.norm(self.live_load))
         return min(power, self.dead_over_live) if live > 0.0 else power
 
-    def _loads_of_blocks(self) -> tuple[FloatArray, FloatArray]:
-        """Dead and live load, a row for each block; of guided blocks what does work in their ways."""
-        return self._of_blocks(self.dead_load), self._of_blocks(self.live_load)
-
     def _of_blocks(self, values: FloatArray) -> FloatArray:
-        """Loads or velocities, (n_rows,), a row for each block, with the full one of guided and mirrored blocks."""
-        program = self
-        while program.reduction is not None and (program.guided or program.halved):
-            values, program = program.reduction.velocities @ values, program.reduction.full
-        return values.reshape(-1, 3 if program.components == 2 else 6)
+        """Loads or velocities, (n_rows,), a row for each block; of guided blocks what does work in their ways."""
+        values = values if self.of_blocks is None else self.of_blocks.motion(values)
+        return values.reshape(-1, 3 if self.components == 2 else 6)
 
     def mechanism(self, scaled: FloatArray) -> FloatArray:
         """Velocities of all blocks, fixed ones at rest, (n_blocks, 6), from those of the program, (n_rows,)."""
         if self.reduction is not None:
-            return self.reduction.full.mechanism(self.reduction.velocities @ scaled)
-        full = np.zeros((self.n_blocks, 6))
-        full[self.free] = self.scaling.velocities(scaled)
+            return self.reduction.full.mechanism(self.reduction.motion(scaled))
+        full = np.zeros((self.facts.n_blocks, 6))
+        full[self.facts.free] = self.scaling.velocities(scaled)
         return full
 
     def velocities(self, mechanism: FloatArray) -> FloatArray:
         """The way back from ``mechanism``: (n_rows,) from (n_blocks, 6), as near to it as its motions come."""
         if self.reduction is not None:
-            ways = self.reduction.velocities  # orthogonal, and of length 1 but for the unit of force of a part
-            lengths = np.asarray(ways.power(2).sum(axis=0))
-            return np.asarray(ways.T @ self.reduction.full.velocities(mechanism)) / np.maximum(lengths, 1e-300)
-        return np.asarray(mechanism[self.free].ravel() / (self.scaling.row * self.scaling.live))
+            return self.reduction.motion_within(self.reduction.full.velocities(mechanism))
+        return np.asarray(mechanism[self.facts.free].ravel() / (self.scaling.row * self.scaling.live))

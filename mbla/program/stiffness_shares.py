@@ -8,11 +8,10 @@ of its own area, as on a grid, whose sum goes to the integral. Ties are as stiff
 from __future__ import annotations
 
 import numpy as np
-import scipy.sparse as sp
 
 from mbla.arrays import BoolArray, FloatArray
 from mbla.contacts.contacts import Contacts
-from mbla.program.program import Program, Reduction
+from mbla.program.program import Program
 from mbla.program.reductions.scene import refined
 
 
@@ -46,25 +45,16 @@ def shares_of(program: Program) -> FloatArray:
 
 def brittle_of(program: Program) -> BoolArray:
     """Which of a program's points lose their force at their greatest and at their least one, (n_points, 2)."""
-    reduction = program.reduction
-    if reduction is None:
-        none = np.zeros((program.n_points, 2), dtype=np.bool_)
-        return none if program.brittle is None else program.brittle
-    above = brittle_of(reduction.full)
-    return np.asarray(abs(_normal(program, reduction)).T @ above.astype(np.float64) > 0.0)
+    brittle = program.facts.brittle
+    if brittle is None:
+        return np.zeros((program.n_points, 2), dtype=np.bool_)
+    return np.asarray(abs(program.lift.normal_forces).T @ brittle.astype(np.float64) > 0.0)
 
 
 def stiffness_through(program: Program) -> FloatArray:
     """Stiffness of a program's points over the mean of those of the full model, (n_points,)."""
-    reduction = program.reduction
-    if reduction is None:
-        assert program.areas is not None  # of the full model
-        return shares_in_units(program.areas, program.scaling.units)
-    above = stiffness_through(reduction.full)
-    compliance = np.asarray(_normal(program, reduction).power(2).T @ (1.0 / above))
-    return np.asarray(np.where(compliance > 0.0, 1.0 / np.maximum(compliance, 1e-300), above.mean()))
-
-
-def _normal(program: Program, reduction: Reduction) -> sp.csr_array:
-    """P of the normal forces, (n_points of the program that was reduced, n_points)."""
-    return sp.csr_array(reduction.forces[:: reduction.full.components][:, :: program.components])
+    shares, lift = shares_in_units(program.facts.areas, program.scaling.units), program.reduction
+    if lift is None:
+        return shares
+    compliance = np.asarray(lift.normal_forces.power(2).T @ (1.0 / shares))
+    return np.asarray(np.where(compliance > 0.0, 1.0 / np.maximum(compliance, 1e-300), shares.mean()))

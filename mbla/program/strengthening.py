@@ -22,7 +22,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from mbla.arrays import FloatArray
-from mbla.contacts.glue import Solids
+from mbla.assembly.rigid_bodies import RigidBodies
 from mbla.model.model import LoadCase
 from mbla.program.assemble import assemble
 from mbla.program.kinematic import ConeProgram, KinematicForm, kinematic_form
@@ -36,33 +36,32 @@ class StrengthenedCase:
 
     program    : of the joints, and of the ties that are there; its dead load is q, its live load nothing
     pulls      : (n_rows, k) C, of candidates
-    ways       : from the velocities of the program to those of the free blocks, where guides leave fewer; else None
+    ways       : from the velocities of the program to those of the free blocks, of which guides leave fewer
     """
 
     program: Program
     pulls: sp.csr_array
-    ways: sp.csr_array | None
+    ways: sp.csr_array
 
     def motion(self, velocities: FloatArray) -> FloatArray:
         """Of all blocks, (n_blocks, 6), for which a unit of power is one of the program, from (n_rows,)."""
         program = self.program
-        free = velocities if self.ways is None else self.ways @ velocities
-        full = np.zeros((program.n_blocks, 6))
-        full[program.free] = (free * program.scaling.row).reshape(-1, 6)
+        full = np.zeros((program.facts.n_blocks, 6))
+        full[program.facts.free] = (self.ways @ velocities * program.scaling.row).reshape(-1, 6)
         return full
 
 
 def strengthened_case(
-    solids: Solids, load_case: LoadCase, required: float, first: int, count: int, unit: float
+    bodies: RigidBodies, load_case: LoadCase, required: float, first: int, count: int, unit: float
 ) -> StrengthenedCase:
     """A load case at a load factor.
 
-    solids : with all candidates among its contacts
+    bodies : with all candidates among its contacts
     first  : number of the first candidate among the ties of the model; ``count`` of them
     unit   : of force of the program, N
     """
-    contacts = solids.contacts
-    program = assemble(solids.model, contacts, solids.load_case(load_case), own=False)
+    contacts = bodies.contacts
+    program = assemble(bodies.model, contacts, bodies.load_case(load_case), own=False)
     program = program.in_unit_of_force(unit / program.scaling.force)
     ties, n_points = contacts.ties, len(contacts.points)
     rows = np.zeros(0, dtype=np.int64) if ties is None else ties.rows
@@ -84,8 +83,7 @@ def strengthened_case(
         live_load=np.zeros_like(loads),
         reduction=None,
     )
-    ways = None if program.reduction is None else program.reduction.velocities
-    return StrengthenedCase(alone, sp.csr_array(pulls), ways)
+    return StrengthenedCase(alone, sp.csr_array(pulls), program.lift.velocities)
 
 
 @dataclass(frozen=True)

@@ -104,7 +104,7 @@ def macro_deck(results: Results, case: CaseResult, mechanics: Mechanics, data: d
     """
     load_case = case.load_case
     model = results.model.of_case(load_case)
-    parts = parts_of_one_twist(model, results.contacts, mechanics.mechanism)
+    parts = parts_of_one_twist(model, results.assembly.glued(load_case), mechanics.mechanism)
     motions = part_motions(model, parts, mechanics.mechanism)
     parts[model.guides.blocks] = APART
     names = {part: f"part_{part}" if part else AT_REST for part in np.unique(parts[parts != APART]).tolist()}

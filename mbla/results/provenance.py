@@ -15,12 +15,11 @@ from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
 from mbla import __version__
-from mbla.contacts.contacts import Contacts
+from mbla.assembly.assembly import Assembly
 from mbla.deck import Deck, read_deck
 from mbla.deck.sections.accuracy import knobs_of
 from mbla.deck.text.include import confined
 from mbla.errors import FileError, Notice
-from mbla.model.model import Model
 from mbla.process.stopwatch import Stopwatch
 from mbla.program.build import program_notices
 from mbla.program.reductions.steps import ReductionStep
@@ -171,19 +170,16 @@ PARTS_OF_SOLVE = ("assemble", "programs", "repair", "standing", "verify")
 forces and velocities repaired, which prove the bounds; standing under dead load; verification."""
 
 
-def results_before(
-    deck: Deck, model: Model, contacts: Contacts, settings: SolverSettings, seconds: dict[str, float]
-) -> Results:
+def results_before(deck: Deck, assembly: Assembly, settings: SolverSettings, seconds: dict[str, float]) -> Results:
     """Results without load cases.
 
     seconds : by stage, of those that are done
     """
     return Results(
         deck=deck_record(deck),
-        model=model,
-        contacts=contacts,
+        assembly=assembly,
         cases=(),
-        notices=notices_of(deck, model, contacts),
+        notices=notices_of(deck, assembly),
         provenance=dict(collect_provenance()),
         settings=settings_in_words(deck, settings),
         time=seconds,
@@ -191,8 +187,9 @@ def results_before(
     )
 
 
-def notices_of(deck: Deck, model: Model, contacts: Contacts) -> tuple[Notice, ...]:
+def notices_of(deck: Deck, assembly: Assembly) -> tuple[Notice, ...]:
     """What every stage before the solver remarked, in their order."""
+    model, contacts = assembly.model, assembly.contacts
     return (
         *deck.notices,
         *model.notices,
@@ -214,7 +211,7 @@ def with_case(results: Results, case: CaseResult, seconds: float, stopwatch: Sto
     cases = cases if known else (*cases, case)
     return replace(
         results,
-        model=with_loads_found(results.model, [case]),
+        assembly=with_loads_found(results.assembly, [case]),
         cases=cases,
         settings=results.settings | {"threads": threads_in_words(cases)},
         time=results.time | {"solve": seconds} | parts_of_solve(cases, stopwatch),
@@ -224,14 +221,14 @@ def with_case(results: Results, case: CaseResult, seconds: float, stopwatch: Sto
     )
 
 
-def with_loads_found(model: Model, cases: Sequence[CaseResult]) -> Model:
-    """The model with the load cases as they were solved.
+def with_loads_found(assembly: Assembly, cases: Sequence[CaseResult]) -> Assembly:
+    """The assembly with the load cases as they were solved.
 
     The loads of a tilting table are those of its angle, and those of a support that gives way have the reaction from
     which it starts.
     """
     found = {case.load_case.name: case.load_case for case in cases}
-    return replace(model, load_cases=tuple(found.get(case.name, case) for case in model.load_cases))
+    return assembly.with_load_cases(tuple(found.get(case.name, case) for case in assembly.model.load_cases))
 
 
 def as_expected(results: Results, deck: Deck) -> Results:

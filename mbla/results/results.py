@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass, field
 from datetime import UTC, datetime
 
+from mbla.assembly.assembly import Assembly
 from mbla.contacts.contacts import Contacts
 from mbla.errors import Notice
 from mbla.model.model import LoadCase, Model
@@ -115,8 +116,7 @@ class Results:
     """
 
     deck: DeckRecord
-    model: Model
-    contacts: Contacts
+    assembly: Assembly
     cases: tuple[CaseResult, ...]
     notices: tuple[Notice, ...]
     provenance: dict[str, str]
@@ -130,6 +130,16 @@ class Results:
     unconfirmed: tuple[str, ...] = ()
     paths_again: tuple[PathAgain, ...] | None = None
     pushovers_again: tuple[PushoverAgain, ...] | None = None
+
+    @property
+    def model(self) -> Model:
+        """With the load cases as they were solved."""
+        return self.assembly.model
+
+    @property
+    def contacts(self) -> Contacts:
+        """As found."""
+        return self.assembly.contacts
 
     def case(self, name: str) -> CaseResult:
         """The case of that name; raises KeyError if there is none."""

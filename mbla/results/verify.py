@@ -18,8 +18,7 @@ from pathlib import Path
 
 import numpy as np
 
-from mbla.contacts.findings import contacts_of
-from mbla.contacts.glue import held_model
+from mbla.assembly import Assembly, build_assembly
 from mbla.deck import Deck
 from mbla.deck.deck import sha256_of
 from mbla.errors import DeckError, FileError, Notice
@@ -33,7 +32,7 @@ from mbla.results.hdf5.content import content_of
 from mbla.results.hdf5.layout import Content, Value
 from mbla.results.hdf5.result_file import differences_of_file, read_results_hdf5, write_results_hdf5
 from mbla.results.outcome import WITH_VALUE, least_factor, locked_in, presumes_standing
-from mbla.results.provenance import as_expected, deck_of, notices_of, settings_in_words
+from mbla.results.provenance import as_expected, deck_of, notices_of, settings_in_words, with_loads_found
 from mbla.results.results import CaseResult, PathAgain, PushoverAgain, Results
 from mbla.results.verification.asked import (
     Found,
@@ -44,7 +43,6 @@ from mbla.results.verification.asked import (
     held_against_deck,
 )
 from mbla.results.verification.remarks import MADE_LAST, differences_of_remarks, remarks_found_again
-from mbla.solution.glued import with_derived
 from mbla.solution.limits.geometric_safety import proved
 from mbla.solution.pushover.curve import begun_by, curve_of
 from mbla.solution.sensitivity.sensitivity import with_sensitivity
@@ -53,6 +51,7 @@ from mbla.solution.solution import Checks, Solution, Standing, Status
 from mbla.solution.thresholds import SOLVED_RESIDUAL
 from mbla.solution.tilt import angle_of_load, found_angle, found_tangent, leads_across
 from mbla.solution.tilt_circle import chord
+from mbla.solution.verification.derived import with_derived
 from mbla.solution.verification.statics import load_scale
 from mbla.solution.verification.verify import level_bound, verify
 from mbla.solution.verification.verify_points import verified_status
@@ -79,7 +78,7 @@ def verify_file(path: Path, *, anew: bool = False) -> tuple[Results, tuple[str, 
         if deck is not None and anew:
             from mbla.results.verification.history import held_against_paths, paths_again  # late: it needs solvers
 
-            followed = paths_again(deck, results.model.of_case(case.load_case), results.contacts, case)
+            followed = paths_again(deck, results.assembly, case)
             held_against_paths(found, results.model, case, followed)
             paths += followed
             if not at_work(results, case):
@@ -104,7 +103,7 @@ def _pushover_anew(deck: Deck, results: Results, case: CaseResult, found: Found)
     """The pushover of a recomputed case followed anew, where there is one; what it shows is added to what was found."""
     from mbla.results.verification.pushover_again import held_against_pushover, pushover_again  # late: it needs solvers
 
-    again = pushover_again(deck, results.model.of_case(case.load_case), results.contacts, case)
+    again = pushover_again(deck, results.assembly, case)
     if again is None:
         return []
     held_against_pushover(found, results.model, case, again)
@@ -113,10 +112,9 @@ def _pushover_anew(deck: Deck, results: Results, case: CaseResult, found: Found)
 
 def _held_against(deck: Deck, results: Results, case: CaseResult, known: Found) -> Found:
     """What is found of a recomputed case beside what is known: its parts, its remarks, and what its state rests on."""
-    model = results.model.of_case(case.load_case)
     done = not at_work(results, case)
-    found = held_against_deck(deck, model, results.contacts, case, done=done)
-    again = remarks_found_again(deck, model, results.contacts, case)
+    found = held_against_deck(deck, results.assembly, case, done=done)
+    again = remarks_found_again(deck, results.assembly, case)
     again = again if done else tuple(remark for remark in again if remark.identifier not in MADE_LAST)
     remarks = differences_of_remarks(case, again)
     differences = [*known.differences, *found.differences, *remarks]
@@ -126,46 +124,44 @@ def _held_against(deck: Deck, results: Results, case: CaseResult, known: Found) 
 def recomputed(results: Results, deck: Deck | None) -> Results:
     """The results with all that follows from deck, forces and mechanisms in place of what the file states."""
     cases = tuple(_recomputed_case(results, case, deck) for case in results.cases)
-    found = {case.load_case.name: case.load_case for case in cases}
-    model = replace(results.model, load_cases=tuple(found.get(case.name, case) for case in results.model.load_cases))
     code = exit_code(cases, results.notices) if results.complete else results.exit_code
-    return replace(results, model=model, cases=cases, exit_code=code)
+    return replace(results, assembly=with_loads_found(results.assembly, cases), cases=cases, exit_code=code)
 
 
 def _recomputed_case(results: Results, case: CaseResult, deck: Deck | None) -> CaseResult:
-    load_case, contacts = case.load_case, results.contacts
-    model: Model = results.model.of_case(load_case)
+    load_case, assembly, contacts = case.load_case, results.assembly, results.contacts
+    model = assembly.model.of_case(load_case)
     solution = case.solution
     if deck is not None:
         crushable = bool(crushable_interfaces(model, contacts).any())
         solution = _as_asked_for(solution, load_case, deck, crushable=crushable)
-    solution = with_derived(model, contacts, load_case, solution)
+    solution = with_derived(assembly, load_case, solution)
     if load_case.tilt is not None:
         tangent = found_tangent(model, contacts, load_case.tilt, load_case.live_load, solution)
         tilt = replace(load_case.tilt, tangent=tangent)
-        upright = level_bound(model, contacts, replace(load_case, tilt=tilt), solution)
+        upright = level_bound(assembly, replace(load_case, tilt=tilt), solution)
         angle = found_angle(tilt, load_case.live_load, solution)
         load_case = replace(load_case, tilt=replace(tilt, upright=upright, angle=angle))
     pushes = load_case.pushover is not None and solution.pushed is not None
     if deck is not None and pushes and solution.mechanics is not None:
         solution = begun_by(load_case, solution)
-        solution = replace(solution, curve=curve_of(model, contacts, deck.contacts, load_case, solution))
+        solution = replace(solution, curve=curve_of(assembly, load_case, solution))
     if solution.geometric_safety is not None:
         safety = solution.geometric_safety
-        own = proved(model, contacts, load_case, safety)
+        own = proved(assembly, load_case, safety)
         solution = replace(solution, geometric_safety=replace(safety, verified=own))
-    checks = verify(model, contacts, load_case, solution)
+    checks = verify(assembly, load_case, solution)
     if deck is not None and deck.analysis.sensitivity is not False and not at_work(results, case):
-        solution = _with_slopes(results, model, load_case, solution, checks)
+        solution = _with_slopes(results, load_case, solution, checks)
     return CaseResult(load_case, solution, checks, verified_status(solution, checks))
 
 
-def _with_slopes(results: Results, model: Model, load_case: LoadCase, solution: Solution, checks: Checks) -> Solution:
+def _with_slopes(results: Results, load_case: LoadCase, solution: Solution, checks: Checks) -> Solution:
     """The solution with slopes of the load factor from its forces and mechanism, and the deck built anew for each."""
     with tempfile.TemporaryDirectory() as name:
         deck = deck_of(results.deck, Path(name), expected=False)
         bare = replace(solution, sensitivity=())
-        found = with_sensitivity(deck, model, results.contacts, load_case, bare, checks)
+        found = with_sensitivity(deck, results.assembly, load_case, bare, checks)
         return replace(solution, sensitivity=found.sensitivity)
 
 
@@ -244,14 +240,12 @@ def _read_again(results: Results, *, expected: bool) -> tuple[Deck | None, list[
 def _content(deck: Deck, results: Results, folder: Path) -> Content:
     """The content of a file of the deck's model, without what only solving finds."""
     model = build_model(deck)
-    contacts = contacts_of(deck, model)
-    model = _with_loads_found(held_model(model, contacts), results.model)
+    assembly = _with_loads_of_file(build_assembly(deck, model), results.model)
     threads = {name: words for name, words in results.settings.items() if name == "threads"}  # no deck says them
     built = replace(
         results,
-        model=model,
-        contacts=contacts,
-        notices=notices_of(deck, model, contacts),
+        assembly=assembly,
+        notices=notices_of(deck, assembly),
         settings=settings_in_words(deck, solver_settings(deck.analysis)) | threads,
     )
     if deck.content.expected and any(notice.identifier == UNEXPECTED for notice in results.notices):
@@ -271,15 +265,17 @@ def _placed_as(stored: Sequence[Notice], notices: Sequence[Notice], folder: Path
     return tuple(placed)
 
 
-def _with_loads_found(model: Model, of_file: Model) -> Model:
-    """The model with what is found of its loads by solving, as the file has it: no deck says it.
+def _with_loads_of_file(assembly: Assembly, of_file: Model) -> Assembly:
+    """The assembly with what is found of its loads by solving, as the file has it: no deck says it.
 
     That is the reaction from which a support gives way, the angle of a tilting table, and at which position of a
     travelling load the structure is pushed.
     """
     known = {case.name: case for case in of_file.load_cases}
-    cases = tuple(_found(case, known[case.name]) if case.name in known else case for case in model.load_cases)
-    return replace(model, load_cases=cases)
+    cases = assembly.model.load_cases
+    return assembly.with_load_cases(
+        tuple(_found(case, known[case.name]) if case.name in known else case for case in cases)
+    )
 
 
 def _found(case: LoadCase, of_file: LoadCase) -> LoadCase:

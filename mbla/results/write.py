@@ -65,7 +65,7 @@ def write_results(results: Results, out: OutputFolder, output: OutputSection) ->
     """
     begin = time.perf_counter()
     for case in results.cases:
-        find_failure(results.model, results.contacts, case)
+        find_failure(results.assembly, case)
     described = time.perf_counter()
     every_position = output.positions == "all"
     shown = replace(results, cases=results.cases if every_position else detailed_cases(results.cases))

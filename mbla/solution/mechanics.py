@@ -13,8 +13,9 @@ that is no opening. So the verdict does not depend on how far the solver went.
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
-import scipy.sparse as sp
 
 from mbla.arrays import FloatArray, IntArray
 from mbla.program.program import Program
@@ -68,8 +69,7 @@ def _ratio(values: FloatArray, scale: FloatArray) -> FloatArray:
 
 def mechanics_of(program: Program, state: LawState, flow_rule: str = "non_associative") -> Mechanics:
     """Mechanics of the model from a state of a program, reduced or not, that was found by the given flow rule."""
-    while program.reduction is not None:
-        state, program = lifted(program, state), program.reduction.full
+    program, state = program.full, lifted(program, state)
     scaling = program.scaling
     live_power = float(program.live_load @ state.velocities)
     velocities = state.velocities / live_power
@@ -127,38 +127,19 @@ def certificate_of(program: Program, velocities: FloatArray) -> tuple[FloatArray
 
 def forces_of(program: Program, forces: FloatArray) -> FloatArray:
     """Contact forces of the model, (n_points, 3), from those of a program, reduced or not."""
-    while program.reduction is not None:
-        full = program.reduction.full
-        forces = (program.reduction.forces @ forces.ravel()).reshape(-1, full.components)
-        program = full
-    return program.scaling.forces(forces)
+    return program.full.scaling.forces(program.lift.contact_forces(forces))
 
 
 def lifted(program: Program, state: LawState) -> LawState:
-    """The same state in the program that was reduced to this one."""
-    assert program.reduction is not None
-    full, history = program.reduction.full, state.history
-
-    def of(values: FloatArray) -> FloatArray:
-        assert program.reduction is not None
-        return np.asarray((program.reduction.forces @ values.ravel()).reshape(-1, full.components))
-
+    """The same state in the program of the full model."""
+    lift, history = program.reduction, state.history
+    if lift is None:
+        return state
     if history is not None:
-        normal, shear = _lifted_stiffness(program, history.normal), _lifted_stiffness(program, history.shear)
-        history = StepHistory(of(history.remembered), normal, shear, history.motions)
-    velocities = program.reduction.velocities @ state.velocities
-    return LawState(of(state.forces), velocities, state.load_factor, state.residual, state.motions, history)
-
-
-def _lifted_stiffness(program: Program, stiffness: FloatArray) -> FloatArray:
-    """Of the points of the full program, (n_points,), each with its share of the force of a point of the reduced one.
-
-    Points of one share move alike: the velocity of the reduced one is the sum of theirs, each times its share.
-    """
-    assert program.reduction is not None
-    shares = sp.csr_array(program.reduction.forces[:: program.reduction.full.components][:, :: program.components])
-    shares = abs(shares)
-    return np.asarray(shares @ (np.asarray(shares.sum(axis=0)).ravel() * stiffness))
+        normal, shear = lift.stiffness(history.normal), lift.stiffness(history.shear)
+        history = StepHistory(lift.contact_forces(history.remembered), normal, shear, history.motions)
+    forces, velocities = lift.contact_forces(state.forces), lift.motion(state.velocities)
+    return replace(state, forces=forces, velocities=velocities, history=history)
 
 
 def contact_velocities(program: Program, velocities: FloatArray) -> FloatArray:

@@ -13,8 +13,7 @@ import math
 from dataclasses import replace
 
 from mbla.arrays import FloatArray
-from mbla.contacts.gauge import gauge_way
-from mbla.contacts.glue import Solids
+from mbla.assembly.rigid_bodies import RigidBodies
 from mbla.model.model import LoadCase
 from mbla.model.settlement import with_reference
 from mbla.solution.solution import WITH_VALUE, Status
@@ -54,14 +53,16 @@ def started(load_case: LoadCase, at_rest: float) -> LoadCase:
     return with_reference(load_case, 0.0 if nothing else at_rest + MARGIN * settlement.unit)
 
 
-def force_felt(gauged: Solids, load_case: LoadCase, contact_forces: FloatArray) -> float:
+def measured_force(bodies: RigidBodies, contact_forces: FloatArray) -> float:
     """The force of an objective in the sense of its end, in the unit of contact forces, (n_points, 3).
 
-    gauged : the solids with their gauge, ties among their contacts
+    bodies : with its load cell, ties among their contacts
     """
-    felt = contact_resultants(gauged.model, gauged.contacts, contact_forces)[-1]
-    felt = felt if gauged.fitted is None else felt + gauged.fitted[-1]
-    return float(gauge_way(load_case) @ felt)
+    assert bodies.load_cell is not None  # that is what measures
+    measured = contact_resultants(bodies.model, bodies.contacts, contact_forces)[-1]
+    always = bodies.tie_prestress_load
+    measured = measured if always is None else measured + always[-1]
+    return float(bodies.load_cell.direction @ measured)
 
 
 def ends_of_force(load_case: LoadCase, at_rest: float | None) -> Angles:
@@ -70,7 +71,7 @@ def ends_of_force(load_case: LoadCase, at_rest: float | None) -> Angles:
     at_rest : the force, in the sense of the end, in some state that carries the loads; None where none was found
     """
     settlement = load_case.settlement
-    assert settlement is not None  # that of the gauge
+    assert settlement is not None  # that of the load cell
     if at_rest is not None:
         answer = yield started(load_case, at_rest)
         if answer.solution.status in (*WITH_VALUE, Status.UNBOUNDED, Status.TIME_LIMIT):

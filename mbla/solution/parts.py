@@ -52,7 +52,6 @@ def assemble_parts(
     if len(parts) == 1:
         return parts[0], state
     total: LawState | None = None
-    program = parts[part]
     for number, other in enumerate(parts):
         own: LawState | None = state
         if number != part:
@@ -60,10 +59,10 @@ def assemble_parts(
             own = own if own is None or state.history is None else _remembered(other, own, state.history)
         if own is None:
             return None
-        program, own = to_full(other, own)
+        own = lifted(other, own)
         total = own if total is None else _together(total, own, state)
     assert total is not None
-    return program, total
+    return parts[part].full, total
 
 
 def _remembered(program: Program, resting: LawState, beside: StepHistory) -> LawState:
@@ -119,13 +118,6 @@ def _resting(
 
 def _without_motion(collapse: LawState, forces: FloatArray, load_factor: float) -> LawState:
     return LawState(forces, np.zeros_like(collapse.velocities), load_factor, collapse.residual)
-
-
-def to_full(program: Program, state: LawState) -> tuple[Program, LawState]:
-    """The program of the full model, and the state in it."""
-    while program.reduction is not None:
-        state, program = lifted(program, state), program.reduction.full
-    return program, state
 
 
 def at_rest(

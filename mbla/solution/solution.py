@@ -219,7 +219,7 @@ class Solution:
     """Answer of the solver stage for one load case, before verification.
 
     Forces of a lock, a level lock, the standing structure and of steps of a pushover have those of ties as contact
-    points (:mod:`mbla.contacts.tied`) behind the n_points of the interfaces.
+    points (:mod:`mbla.assembly.ties`) behind the n_points of the interfaces.
 
     status      : what the solver stage claims; never better than what ``verify`` confirms
     mechanics   : by the deck's flow rule; None where there is no load factor

@@ -18,8 +18,8 @@ from mbla.solution.associative.force_ranges import force_ranges
 from mbla.solution.associative.solve_associative import AssociativeResult
 from mbla.solution.cone_solvers.cone_solution import Log
 from mbla.solution.flow.path_record import Stop
-from mbla.solution.glued import solution_on_blocks
 from mbla.solution.law.interfaces import NONE, Interfaces
+from mbla.solution.lifted import solution_on_blocks
 from mbla.solution.mechanics import certificate_of, mechanics_of
 from mbla.solution.nonassociative.law_state import LawState
 from mbla.solution.nonassociative.least_found import looks_lower
@@ -106,12 +106,12 @@ def solve(program: CaseProgram, settings: SolverSettings, log: Log | None = None
     if program.crushing is not None or program.twisting is not None:
         interfaces = Interfaces(program.crushing, program.twisting)
     solution = solve_parts(program.reduced, settings, log, interfaces, _with_torsion(program, settings))
-    return solution_on_blocks(_of_interfaces(program, settings, solution), program.solids)
+    return solution_on_blocks(_of_interfaces(program, settings, solution), program.bodies)
 
 
 def _of_interfaces(program: CaseProgram, settings: SolverSettings, solution: Solution) -> Solution:
     """With what the interfaces do, where there are conditions on them."""
-    analysis, model, contacts = settings.analysis, program.solids.model, program.solids.contacts
+    analysis, model, contacts = settings.analysis, program.bodies.model, program.bodies.contacts
     if solution.torsion is not None:
         beside = of_interfaces(model, contacts, "convex", solution.torsion, "non_associative")
         solution = replace(solution, torsion=beside)
@@ -138,7 +138,7 @@ def _with_torsion(program: CaseProgram, settings: SolverSettings) -> Interfaces:
     """Interfaces whose torsion a second path limits, so that its load factor stands beside the answer."""
     turned = program.load_case.tilt is not None and not program.load_case.tilt.tangent  # solved for many angles
     spatial = any(part.components == 3 for part in program.reduced.parts)
-    model, contacts = program.solids.model, program.solids.contacts
+    model, contacts = program.bodies.model, program.bodies.contacts
     # points that crush by themselves have no such law
     at_points = program.crushing is None and crushable_interfaces(model, contacts).any()
     if turned or not spatial or at_points or not settings.by_torsion:
@@ -153,7 +153,7 @@ def solve_parts(
     interfaces: Interfaces = NONE,
     beside: Interfaces = NONE,
 ) -> Solution:
-    """The same of the contact points of solids: their parts one after the other, then the whole structure.
+    """The same of the contact points of rigid bodies: their parts one after the other, then the whole structure.
 
     log        : called once per iteration of a cone program, as it goes
     interfaces : of the model that have a law of their own in the path of elastic joints
@@ -268,7 +268,7 @@ def _with_load_factor(stage: _Stage, results: Sequence[PartResult], first: int, 
     if result.sequence is None:
         return replace(solution, mechanics=solution.associative, remarks=tuple(remarks))
     sequence, rule = result.sequence, analysis.flow_rule
-    searched = looks_lower(stage.parts[first], stage.settings, stage.interfaces) or stage.parts[first].settles
+    searched = looks_lower(stage.parts[first], stage.settings, stage.interfaces) or stage.parts[first].facts.settles
     words = [] if searched or not stage.settings.by_elastic_path else [OTHER_HISTORIES]
     words = [OF_INTERFACES] if words and stage.interfaces is not NONE else words
     return replace(

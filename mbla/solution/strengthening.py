@@ -11,9 +11,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
-from mbla.contacts.contacts import Contacts
-from mbla.contacts.glue import Solids, solids_of
-from mbla.contacts.tied import tied
+from mbla.assembly.assembly import Assembly
+from mbla.assembly.lift import motions_of_blocks
 from mbla.model.model import LoadCase, Model
 from mbla.model.ties.moved import elongations
 from mbla.program.strengthening import StrengtheningForm, strengthened_case, strengthening_form
@@ -58,12 +57,11 @@ class Cheapest:
 class Strengthening:
     """What may be added to a structure.
 
-    model : with candidates behind its own ties, whose number is ``first``
+    assembly : with candidates behind its own ties, whose number is ``first``
     costs : (k,) of a unit of capacity; most : (k,) greatest capacity, N
     """
 
-    model: Model
-    contacts: Contacts
+    assembly: Assembly
     first: int
     costs: FloatArray
     most: FloatArray
@@ -71,9 +69,14 @@ class Strengthening:
     settings: SolverSettings
     log: Log
 
-    def solids(self, load_case: LoadCase) -> Solids:
-        """With all candidates among the contacts."""
-        return tied(solids_of(self.model.of_case(load_case), self.contacts))
+    @property
+    def model(self) -> Model:
+        """With its candidates."""
+        return self.assembly.model
+
+    def _with_ties(self, rows: IntArray) -> Assembly:
+        """Some of its ties alone, (n,)."""
+        return replace(self.assembly, model=replace(self.model, ties=self.model.ties.take(rows)))
 
     def asking(self, factors: Mapping[str, float]) -> Strengthening:
         """The same with other load factors required, by load case."""
@@ -84,8 +87,13 @@ class Strengthening:
 
     def take(self, rows: IntArray) -> Strengthening:
         """The same with some of the candidates, (n,)."""
-        ties = self.model.ties.take(np.concatenate([np.arange(self.first), self.first + rows]))
-        return replace(self, model=replace(self.model, ties=ties), costs=self.costs[rows], most=self.most[rows])
+        chosen = self._with_ties(np.concatenate([np.arange(self.first), self.first + rows]))
+        return replace(self, assembly=chosen, costs=self.costs[rows], most=self.most[rows])
+
+    @property
+    def without_candidates(self) -> Assembly:
+        """As it is."""
+        return self._with_ties(np.arange(self.first))
 
     @property
     def unit(self) -> float:
@@ -104,7 +112,12 @@ def cheapest(strengthening: Strengthening) -> Cheapest:
     count = len(strengthening.costs)
     cases = [
         strengthened_case(
-            strengthening.solids(each.load_case), each.load_case, each.load_factor, strengthening.first, count, unit
+            strengthening.assembly.of(each.load_case),
+            each.load_case,
+            each.load_factor,
+            strengthening.first,
+            count,
+            unit,
         )
         for each in strengthening.requirements
     ]
@@ -146,17 +159,16 @@ def proved_least_cost(strengthening: Strengthening, form: StrengtheningForm, sol
     """
     unit = strengthening.unit * float(strengthening.costs.mean())
     gain, stretched = 0.0, np.zeros(len(strengthening.costs))
-    forces, own = form.forces(solution.z), np.arange(strengthening.first)
-    without = replace(strengthening.model, ties=strengthening.model.ties.take(own))
+    forces, without = form.forces(solution.z), strengthening.without_candidates
     for number, (each, case) in enumerate(zip(strengthening.requirements, form.cases, strict=True)):
         motion = case.motion(form.velocities(solution.x)[number])
-        joints = tied(solids_of(without.of_case(each.load_case), strengthening.contacts))
+        joints = without.of(each.load_case)
         judged = Case(joints.model, joints.contacts, joints.load_case(each.load_case))
         dissipated, lack = judged.dissipation((motion, None))
         dead, live = judged.powers(motion)
         largest = 2.0 * float(np.abs(case.program.scaling.forces(forces[number])[:, 0]).max(initial=0.0))
         gain += unit * (dead + each.load_factor * live - dissipated - largest * lack)
-        on_blocks = joints.block_motions(motion)
+        on_blocks = motions_of_blocks(joints, motion)
         longer = elongations(strengthening.model.blocks, strengthening.model.ties, on_blocks)[strengthening.first :]
         stretched += unit * np.maximum(longer, 0.0)
     limited = np.isfinite(strengthening.most)

@@ -23,6 +23,7 @@ from typing import TypeAlias
 import numpy as np
 
 from mbla.arrays import FloatArray
+from mbla.assembly.assembly import Assembly
 from mbla.contacts.contacts import Contacts
 from mbla.errors import Message
 from mbla.model.model import LoadCase, Model, Tilt
@@ -87,11 +88,11 @@ class Answer:
         return abs(self.load_factor) <= GOOD and self.next_angle(tilt) <= BY_LINE
 
 
-def tilt_angles(model: Model, contacts: Contacts, load_case: LoadCase) -> Angles:
+def tilt_angles(assembly: Assembly, load_case: LoadCase) -> Angles:
     """The angle of collapse, in ``tilt.angle`` or as tangent by the load factor, with the loads and forces there."""
     tilt = load_case.tilt
     assert tilt is not None  # that is why it is requested
-    tangent = only_direction_counts(model, contacts, tilt)
+    tangent = only_direction_counts(assembly.model, assembly.contacts, tilt)
     level = yield load_case
     level = replace(level, load_case=replace(load_case, tilt=replace(tilt, tangent=tangent)))
     if math.isnan(level.load_factor) or (tangent and math.isfinite(level.load_factor)):
@@ -99,7 +100,7 @@ def tilt_angles(model: Model, contacts: Contacts, load_case: LoadCase) -> Angles
     start = level.next_angle(tilt)
     if start <= AT_ONCE:  # the level table bears nothing more: an angle of 0, and so is its tangent
         return replace(level, load_case=replace(load_case, tilt=replace(tilt, tangent=True)))
-    upright = level_bound(model, contacts, load_case, with_level(level.solution, level.solution))
+    upright = level_bound(assembly, load_case, with_level(level.solution, level.solution))
     search = _Search(load_case, replace(tilt, tangent=False, upright=upright), level.solution)
     found = yield from search.from_angle(start) if start < math.pi else search.from_probes()
     found = yield from search.before(found)

@@ -14,10 +14,8 @@ from dataclasses import replace
 import numpy as np
 
 from mbla.arrays import FloatArray
-from mbla.contacts.contacts import Contacts
-from mbla.contacts.glue import Solids, solids_of
-from mbla.contacts.tied import tied
-from mbla.model.model import LoadCase, Model
+from mbla.assembly.assembly import Assembly
+from mbla.model.model import LoadCase
 from mbla.model.settlement import with_reference
 from mbla.program.assemble import assemble
 from mbla.program.reductions import reduce_program
@@ -25,7 +23,7 @@ from mbla.program.reductions.steps import ReductionSwitches
 from mbla.solution.associative.repair import repaired_forces
 from mbla.solution.cone_solvers.cone_solution import ConeSolution, Log
 from mbla.solution.mechanics import forces_of
-from mbla.solution.objective import HIGH, ends_of_force, force_felt, started
+from mbla.solution.objective import HIGH, ends_of_force, measured_force, started
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import IterationRecord
 from mbla.solution.standing.standing import gravity_forces, least_forces
@@ -58,23 +56,23 @@ class Trials:
             self.answer = end.value
 
 
-def trials_of(model: Model, contacts: Contacts, load_case: LoadCase, settings: SolverSettings) -> Trials:
+def trials_of(assembly: Assembly, load_case: LoadCase, settings: SolverSettings) -> Trials:
     """What is solved for a load case of the deck; of a support that gives way with the reaction that it starts from."""
     if load_case.tilt is not None:
-        return Trials(_verified(model, contacts, tilt_angles(model, contacts, load_case)))
+        return Trials(_verified(assembly, tilt_angles(assembly, load_case)))
     if load_case.objective is not None:
-        return Trials(ends_of_force(load_case, force_at_rest(model, contacts, load_case, settings)))
-    return Trials(_once(posed(model, contacts, load_case, settings)))
+        return Trials(ends_of_force(load_case, force_at_rest(assembly, load_case, settings)))
+    return Trials(_once(posed(assembly, load_case, settings)))
 
 
 def _once(load_case: LoadCase) -> Generator[LoadCase, Answer, Answer]:
     return (yield load_case)
 
 
-def _verified(model: Model, contacts: Contacts, angles: Angles) -> Angles:
+def _verified(assembly: Assembly, angles: Angles) -> Angles:
     """The angle found is verified with what was found of the level table, which proves what lies before it."""
     answer = yield from angles
-    return replace(answer, checks=verify(model, contacts, answer.load_case, answer.solution))
+    return replace(answer, checks=verify(assembly, answer.load_case, answer.solution))
 
 
 EVERY_POINT = ReductionSwitches(mirror=False, points=False)
@@ -86,9 +84,7 @@ def _silent(_: IterationRecord) -> None:
     """Iterations of the state at rest are not recorded."""
 
 
-def posed(
-    model: Model, contacts: Contacts, load_case: LoadCase, settings: SolverSettings, log: Log = _silent
-) -> LoadCase:
+def posed(assembly: Assembly, load_case: LoadCase, settings: SolverSettings, log: Log = _silent) -> LoadCase:
     """A load case with its settlement posed; the same one where no support gives way.
 
     Where no forces were found that carry the dead load while the support is held the reaction starts high: a lack of
@@ -97,8 +93,8 @@ def posed(
     settlement = load_case.settlement
     if settlement is None:
         return load_case
-    held = solids_at_rest(model, contacts)
-    total = forces_at_rest(held, load_case, settings, log, stress_free=settings.standing)
+    held = assembly.of(at_rest(load_case))
+    total = forces_at_rest(assembly, load_case, settings, log, stress_free=settings.standing)
     if total is None:
         return with_reference(load_case, HIGH * settlement.unit)
     on_blocks = contact_resultants(held.model, held.contacts, total)[held.label[settlement.blocks]]
@@ -106,29 +102,30 @@ def posed(
     return started(load_case, reaction)
 
 
-def force_at_rest(model: Model, contacts: Contacts, load_case: LoadCase, settings: SolverSettings) -> float | None:
+def force_at_rest(assembly: Assembly, load_case: LoadCase, settings: SolverSettings) -> float | None:
     """The force of an objective in the sense of its end, by the least forces that carry the loads; None without."""
-    held = solids_at_rest(model, contacts)
-    total = forces_at_rest(held, load_case, settings, _silent)
-    return None if total is None else force_felt(tied(solids_of(model, contacts, load_case)), load_case, total)
+    total = forces_at_rest(assembly, load_case, settings, _silent)
+    return None if total is None else measured_force(assembly.of(load_case), total)
 
 
-def solids_at_rest(model: Model, contacts: Contacts) -> Solids:
-    """What the solver sees while nothing gives way."""
-    return tied(solids_of(replace(model, mirrors=()), contacts))
+def at_rest(load_case: LoadCase) -> LoadCase:
+    """The dead load alone, while nothing gives way."""
+    return replace(load_case, live_load=load_case.dead_load, settlement=None, objective=None)
 
 
 def forces_at_rest(
-    solids: Solids, load_case: LoadCase, settings: SolverSettings, log: Log, *, stress_free: bool = False
+    assembly: Assembly, load_case: LoadCase, settings: SolverSettings, log: Log, *, stress_free: bool = False
 ) -> FloatArray | None:
     """Least contact forces that carry the dead load while nothing gives way, (n_points, 3); None without.
 
     stress_free : those that arise from the stress-free assembly, where they carry it
     """
-    held = replace(load_case, live_load=load_case.dead_load, settlement=None, objective=None)
-    program = assemble(solids.model, solids.contacts, solids.load_case(held))
-    parts = reduce_program(solids.model, solids.contacts, program, EVERY_POINT, associative=True).parts
-    total = np.zeros((len(solids.contacts.points), 3))
+    held = at_rest(load_case)
+    bodies = assembly.of(held)
+    model, contacts = replace(bodies.model, mirrors=()), bodies.contacts
+    program = assemble(model, contacts, bodies.load_case(held))
+    parts = reduce_program(model, contacts, program, EVERY_POINT, associative=True).parts
+    total = np.zeros((len(contacts.points), 3))
     for part in parts:
         part = part.without_live_load()
         forces = gravity_forces(part, settings, log) if stress_free else least_forces(part, settings, log)

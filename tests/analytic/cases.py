@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from mbla.assembly.assembly import Assembly
 from mbla.contacts import find_contacts
 from mbla.deck import read_deck
 from mbla.deck.content import Expectation
@@ -54,7 +55,7 @@ def answers(deck: str, *overrides: str) -> Iterator[Answer]:
         solution = solve_parts(
             unreduced(assemble(model, contacts, load_case), contacts), solver_settings(read.analysis)
         )
-        checks = verify(model, contacts, load_case, solution)
+        checks = verify(Assembly(model, contacts), load_case, solution)
         expected = read.content.expected[load_case.name]
         yield Answer(load_case.name, expected, solution, checks, verified_status(solution, checks))
 

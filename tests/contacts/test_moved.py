@@ -8,8 +8,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from mbla.assembly import build_assembly
 from mbla.contacts.carried import Touching
-from mbla.contacts.findings import contacts_of
 from mbla.contacts.moved import MovedSearch
 from mbla.deck import read_deck
 from mbla.model import build_model
@@ -36,7 +36,7 @@ def searched(tmp_path: Path) -> tuple[Model, MovedSearch]:
     (path := tmp_path / "deck.yaml").write_text(DECK, encoding="utf-8")
     deck = read_deck(path)
     model = build_model(deck)
-    return model, MovedSearch(model, contacts_of(deck, model), deck.contacts)
+    return model, MovedSearch(model, build_assembly(deck, model).contacts, deck.contacts)
 
 
 def moved(model: Model, shift: list[float], turn: list[float]) -> Pose:

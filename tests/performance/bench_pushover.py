@@ -17,8 +17,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from mbla.contacts.findings import contacts_of
-from mbla.contacts.glue import held_model, solids_of
+from mbla.assembly import build_assembly
 from mbla.deck import read_deck
 from mbla.model import build_model
 from mbla.program.build import build_program
@@ -54,16 +53,15 @@ def measured(text: str) -> dict[str, str | float] | None:
     with TemporaryDirectory() as folder:
         (path := Path(folder) / "deck.yaml").write_text(text, encoding="utf-8")
         deck = read_deck(path)
-    model = build_model(deck)
-    contacts = contacts_of(deck, model)
-    model = held_model(model, contacts)
+    assembly = build_assembly(deck, build_model(deck))
+    model = assembly.model
     case, settings = model.load_cases[0], solver_settings(deck.analysis)
-    solution = solve(build_program(solids_of(model, contacts), case, deck.analysis), settings)
+    solution = solve(build_program(assembly, case, deck.analysis), settings)
     if solution.mechanics is None or case.pushover is None:
         return None
     first, asked = start_of(solution), case.pushover
     started = time.process_time()
-    structure = PushedStructure.of(model, contacts, deck.contacts, case, settings.analysis.flow_rule)
+    structure = PushedStructure.of(assembly, deck.contacts, case, settings.analysis.flow_rule)
     way = Way(
         structure,
         Control.of(model, case, first.mechanism),

@@ -38,8 +38,8 @@ import scipy.sparse as sp
 from scipy.sparse.linalg import splu
 
 from mbla.arrays import FloatArray, IntArray
+from mbla.assembly import build_assembly
 from mbla.contacts import Contacts
-from mbla.contacts.findings import contacts_of
 from mbla.deck import read_deck
 from mbla.model import Model, build_model
 from mbla.model.model import select_cases
@@ -225,7 +225,7 @@ def measure(name: str, case: str, ratio: float) -> None:
     path = DECKS / f"{name}.yaml"
     deck, started = read_deck(path, ()), time.process_time()
     model = build_model(deck)
-    rests, moves = start_of_motion(assembly_of(model, contacts_of(deck, model), case, ratio))
+    rests, moves = start_of_motion(assembly_of(model, build_assembly(deck, model).contacts, case, ratio))
     seconds = time.process_time() - started
     of_path, associative = by_path(path, case, ratio)
     off = 0.0 if rests <= of_path <= moves else min(abs(of_path - rests), abs(of_path - moves)) / of_path

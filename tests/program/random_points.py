@@ -8,6 +8,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from mbla.arrays import FloatArray
+from mbla.program.facts import ModelFacts
 from mbla.program.kinematic import ConeProgram
 from mbla.program.program import Program, Scaling
 from mbla.program.yield_conditions import YieldLimits
@@ -31,9 +32,8 @@ def mixed_program(components: int, seed: int) -> Program:
         dead_load=draw.normal(size=N_ROWS),
         live_load=draw.normal(size=N_ROWS),
         limits=YieldLimits(friction, np.zeros(n), cohesion, tension, compression),
-        free=np.arange(2),
-        n_blocks=2,
         scaling=Scaling(1.0, 1.0, np.ones(N_ROWS)),
+        facts=ModelFacts(free=np.arange(2), n_blocks=2, areas=np.ones(n)),
         components=components,
     )
 

@@ -18,7 +18,9 @@ from mbla.program.assemble import (
     own_units,
     yield_limits,
 )
-from mbla.program.program import Program, Reduction, Scaling
+from mbla.program.facts import ModelFacts
+from mbla.program.lift import Lift
+from mbla.program.program import Program, Scaling
 from mbla.program.yield_conditions import YieldLimits
 from tests.line import BLOCK, Line, line_of
 
@@ -154,9 +156,8 @@ def rows(dead: list[list[float]], live: list[list[float]], components: int = 3) 
         dead_load=np.concatenate([np.array(load, dtype=float) for load in dead]),
         live_load=np.concatenate([np.array(load, dtype=float) for load in live]),
         limits=YieldLimits(none, none, none, none, none),
-        free=np.arange(len(dead)),
-        n_blocks=len(dead),
         scaling=Scaling(2.0, 5.0, np.ones(n)),
+        facts=ModelFacts(free=np.arange(len(dead)), n_blocks=len(dead), areas=none),
         components=components,
     )
 
@@ -187,20 +188,18 @@ def test_the_dead_load_that_moves(speed: float, moved: float) -> None:
     assert unloaded.moved_over_live(u) == pytest.approx(5.0 * abs(speed))
 
 
-def reduced(full: Program, ways: FloatArray, guided: bool = False, halved: bool = False) -> Program:
+def reduced(full: Program, ways: FloatArray, of_blocks: bool = False) -> Program:
     program = rows([(ways.T @ full.dead_load).tolist()], [(ways.T @ full.live_load).tolist()])
-    way = Reduction(full, sp.csr_array(ways), sp.csr_array((0, 0)))
-    of_full = replace(program, n_blocks=full.n_blocks, free=full.free)
-    return replace(of_full, reduction=way, guided=guided, halved=halved)
+    way = Lift(full, sp.csr_array(ways), sp.csr_array((0, 0)), 3)
+    return replace(program, facts=full.facts, reduction=way, of_blocks=way if of_blocks else None)
 
 
-@pytest.mark.parametrize(("guided", "halved"), [(True, False), (False, True)])
-def test_sizes_of_what_is_reduced_are_those_of_the_whole(guided: bool, halved: bool) -> None:
+def test_sizes_of_what_is_reduced_are_those_of_the_whole() -> None:
     """A block that may move along one line only counts with what of its load does work there."""
     full = rows([[3.0, 0, 0, 4.0, 0, 0]], [[6.0, 8.0, 0, 0, 0, 0]])
     ways = np.zeros((6, 1))
     ways[0, 0] = 1.0
-    program = reduced(full, ways, guided, halved)
+    program = reduced(full, ways, of_blocks=True)
     assert program.own_unit == pytest.approx(3.0 / 6.0)
     assert program.moved_over_live(np.array([0.1])) == pytest.approx(0.3)
     assert program.mechanism(np.array([2.0])).tolist() == [[10.0, 0, 0, 0, 0, 0]]

@@ -8,7 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from mbla.contacts.findings import settlement_findings
+from mbla.assembly import assembly_of
+from mbla.assembly.findings import settlement_findings
 from tests.properties.additions import movable, split_in_two
 from tests.properties.restatements import taken
 from tests.properties.scenes import Scene, Solved, with_analysis, with_section
@@ -85,7 +86,7 @@ def fix_a_block(scene: Scene, solved: Solved) -> Scene | None:
     if not all(np.abs(case.live_load[rest]).max(initial=0.0) > 0 or case.settlement for case in model.load_cases):
         return None
     model = replace(model, fixed=fixed)
-    if any(settlement_findings(model, solved.contacts)):  # the support that gives way holds nothing else
+    if any(settlement_findings(assembly_of(model, solved.contacts))):  # the support that gives way holds nothing else
         return None
     return replace(scene, model=model)
 

@@ -13,9 +13,8 @@ from typing import Any
 
 import numpy as np
 
+from mbla.assembly import Assembly, build_assembly
 from mbla.contacts import Contacts
-from mbla.contacts.findings import contacts_of
-from mbla.contacts.glue import held_model
 from mbla.deck import Deck, read_deck
 from mbla.model import Model, build_model
 from mbla.results.provenance import with_loads_found
@@ -42,11 +41,10 @@ class Scene:
     model: Model
     change: Callable[[Contacts], Contacts] | None = None
 
-    def contacts(self) -> tuple[Model, Contacts]:
+    def assembly(self) -> Assembly:
         """Contacts, and the model with the blocks held that glue holds."""
-        contacts = contacts_of(self.deck, self.model)
-        model = held_model(self.model, contacts)
-        return model, contacts if self.change is None else self.change(contacts)
+        found = build_assembly(self.deck, self.model)
+        return found if self.change is None else replace(found, contacts=self.change(found.contacts))
 
     @property
     def section_text(self) -> str:
@@ -107,10 +105,10 @@ def with_section(scene: Scene, **changes: Any) -> Scene:
 def solve_scene(scene: Scene) -> Solved:
     """Every load case, assembled, solved and verified."""
     deck = scene.deck
-    model, contacts = scene.contacts()
+    assembly = scene.assembly()
     settings, status_file = solver_settings(deck.analysis), StatusFile(io.StringIO(), "metamorphic")
-    cases = tuple(solve_case(deck, model, contacts, case, settings, status_file, None) for case in model.load_cases)
-    return Solved(with_loads_found(model, cases), contacts, cases)
+    cases = tuple(solve_case(deck, assembly, case, settings, status_file, None) for case in assembly.model.load_cases)
+    return Solved(with_loads_found(assembly, cases).model, assembly.contacts, cases)
 
 
 def value_of(case: CaseResult) -> float:

@@ -69,7 +69,7 @@ def checked(name: str) -> list[Comparison]:
     """All comparisons of a scene, by associative flow and without normality."""
     try:
         scene = scene_named(name)
-        points = len(scene.contacts()[1].points)
+        points = len(scene.assembly().contacts.points)
     except DeckError:  # of random decks some say what is refused
         return []
     found: list[Comparison] = []

@@ -5,11 +5,12 @@ A tower 1 x 1 x 2 on a fixed base and a flat brick 1 x 1 x 0.5 on the ground z =
 """
 
 import itertools
-from dataclasses import replace
+from dataclasses import fields, replace
 from typing import Any
 
 import numpy as np
 
+from mbla.assembly.assembly import Assembly
 from mbla.contacts.contacts import ContactReport, Contacts
 from mbla.deck.sections.assessment import AssessmentSection
 from mbla.deck.units import Units
@@ -213,8 +214,7 @@ def tower_results(flow_rule: str = "non_associative") -> Results:
         deck=DeckRecord(
             "tower.yaml", (("tower.yaml", "mbla: 1\ntitle: Tür und Turm – µ\n"), ("b.yaml", "")), (), "ab" * 32
         ),
-        model=model,
-        contacts=tower_contacts(),
+        assembly=Assembly(model, tower_contacts()),
         cases=(
             CaseResult(model.load_cases[0], solution, checks, Status.SOLVED),
             CaseResult(model.load_cases[1], none, nothing, Status.NO_EQUILIBRIUM),
@@ -255,7 +255,9 @@ def full_results() -> Results:
     full = replace(case, load_case=model.load_cases[0], solution=full_solution(case.solution), checks=checks)
     deck = replace(results.deck, files=(("stones.obj", b"v 0 0 0\n"), ("meshes/none.bin", b""), ("x.csv", b"\xff\x00")))
     cases = (full, results.cases[1])
-    return replace(results, deck=deck, model=model, contacts=contacts, cases=cases, complete=False, not_done=("slide",))
+    return replace(
+        results, deck=deck, assembly=Assembly(model, contacts), cases=cases, complete=False, not_done=("slide",)
+    )
 
 
 def full_solution(solution: Solution) -> Solution:
@@ -465,7 +467,7 @@ def same(first: Any, second: Any) -> bool:
         )
     if hasattr(first, "__dataclass_fields__"):
         return type(first) is type(second) and all(
-            same(getattr(first, name), getattr(second, name)) for name in first.__dataclass_fields__
+            same(getattr(first, field.name), getattr(second, field.name)) for field in fields(first) if field.compare
         )
     if isinstance(first, (tuple, list)) and isinstance(second, (tuple, list)):
         return len(first) == len(second) and all(map(same, first, second))

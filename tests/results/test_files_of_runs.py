@@ -67,7 +67,7 @@ def records(folder: Path) -> list[dict[str, Any]]:
     lonely = replace(full.contacts, report=replace(full.contacts.report, isolated=np.array([2])))
     checked = [
         check_json(*check(read_deck(beam), RunOptions(), vtu=False, started=time.perf_counter())),
-        check_json(replace(full, contacts=lonely), {}),
+        check_json(replace(full, assembly=replace(full.assembly, contacts=lonely)), {}),
     ]
     return [*own, json.loads(json_line(results_json(full))), *checked]
 

@@ -145,7 +145,7 @@ analysis: {contact_model: convex}
 
 @pytest.mark.parametrize("glue", ["", ", overrides: [{joint: glued, between: [one, two]}]"], ids=["dry", "glued"])
 def test_of_a_force_that_statics_alone_gives_no_joint_moves(tmp_path: Path, glue: str) -> None:
-    """Nothing pushes the column: what joints move as the gauge does is what the solver leaves."""
+    """Nothing pushes the column: what joints move as the load cell does is what the solver leaves."""
     path = tmp_path / "still.yaml"
     path.write_text(STILL % glue, encoding="utf-8")
     results = run(path, RunOptions(folder=tmp_path / "out"))

@@ -10,7 +10,6 @@ import pytest
 
 import mbla
 from mbla.cli import main
-from mbla.contacts.glue import solids_of
 from mbla.deck import read_deck
 from mbla.results.hdf5.result_file import read_results_hdf5
 from mbla.results.macro_blocks import with_slopes_left
@@ -50,7 +49,7 @@ def run_again(deck: Path) -> Results:
 def free_solids(results: Results, name: str) -> int:
     """How many rigid bodies can move in a load case, a support that gives way not among them."""
     load_case = results.case(name).load_case
-    fixed = solids_of(results.model.of_case(load_case), results.contacts).model.fixed
+    fixed = results.assembly.glued(load_case).model.fixed
     return int(np.sum(~fixed)) - (load_case.settlement is not None)
 
 

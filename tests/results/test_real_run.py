@@ -61,7 +61,7 @@ def test_the_arch_falls_in_three_parts_that_turn_about_their_hinges(results: Res
     """Outer parts turn about the hinges at their feet, the middle one about where the lines through its hinges meet."""
     case = results.cases[0]
     assert case.solution.mechanics is not None
-    collapse = collapse_of(results.model, results.contacts, case.load_case, case.solution.mechanics)
+    collapse = collapse_of(results.assembly, case.load_case, case.solution.mechanics)
     assert len(collapse.motions) == 3
     assert all(part.turns and abs(part.direction[1]) == pytest.approx(1) for part in collapse.motions)
     rows = np.flatnonzero(collapse.interfaces.modes == InterfaceMode.HINGE)

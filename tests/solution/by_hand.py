@@ -12,6 +12,7 @@ import scipy.sparse as sp
 from mbla.arrays import FloatArray
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import LoadCase, Model
+from mbla.program.facts import ModelFacts
 from mbla.program.program import Program, Scaling
 from mbla.program.yield_conditions import YieldLimits
 from mbla.solution.solution import Checks, Mechanics, Solution, Status
@@ -49,14 +50,14 @@ def limits_of(
 def own_points(dead: Sequence[float], live: Sequence[float], components: Any = 2, **limits: Any) -> Program:
     """Bodies that rest each on one contact point of their own: velocities of rows are those of the points."""
     n_rows = len(dead)
+    n = n_rows // components
     return Program(
         equilibrium_matrix=sp.csr_array(sp.eye_array(n_rows, format="csr")),
         dead_load=np.array(dead, dtype=float),
         live_load=np.array(live, dtype=float),
-        limits=limits_of(n_rows // components, **limits),
-        free=np.arange(n_rows // components),
-        n_blocks=n_rows // components,
+        limits=limits_of(n, **limits),
         scaling=Scaling(1.0, 1.0, np.ones(n_rows)),
+        facts=ModelFacts(free=np.arange(n), n_blocks=n, areas=np.ones(n)),
         components=components,
     )
 

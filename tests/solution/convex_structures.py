@@ -5,8 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from mbla.contacts.glue import solids_of
-from mbla.contacts.tied import tied
 from mbla.program.build import build_program
 from mbla.solution.settings import solver_settings
 from mbla.solution.solution import Checks, Solution, Status
@@ -67,9 +65,8 @@ def prism(outline: Sequence[tuple[float, float]], point: Sequence[float]) -> str
 def convex(line: Line, flow_rule: str = "associative") -> tuple[Solution, Checks]:
     """Solve and verify with interface resultants."""
     analysis = line.deck.analysis.model_copy(update={"flow_rule": flow_rule, "contact_model": "convex"})
-    solids = tied(solids_of(line.model, line.contacts, line.load_case))
-    solution = solve(build_program(solids, line.load_case, analysis), solver_settings(analysis))
-    return solution, verify(line.model, line.contacts, line.load_case, solution)
+    solution = solve(build_program(line.assembly, line.load_case, analysis), solver_settings(analysis))
+    return solution, verify(line.assembly, line.load_case, solution)
 
 
 def factor(text: str, *overrides: str, case: int = 0, flow_rule: str = "associative") -> float:

@@ -8,8 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from mbla.contacts.findings import contacts_of
-from mbla.contacts.glue import held_model, solids_of
+from mbla.assembly import build_assembly
 from mbla.deck import read_deck
 from mbla.model import build_model
 from mbla.program.build import build_program
@@ -31,10 +30,9 @@ def pushover_of(path: Path, *overrides: str) -> Solution:
     """The first load case of a deck with its capacity curve."""
     deck = read_deck(path, overrides)
     model = build_model(deck)
-    contacts = contacts_of(deck, model)
-    model, case, settings = held_model(model, contacts), model.load_cases[0], solver_settings(deck.analysis)
-    solution = solve(build_program(solids_of(model, contacts), case, deck.analysis), settings)
-    return pushed(model, contacts, deck.contacts, case, solution, settings, lambda record: None, solved=True)
+    assembly, case, settings = build_assembly(deck, model), model.load_cases[0], solver_settings(deck.analysis)
+    solution = solve(build_program(assembly, case, deck.analysis), settings)
+    return pushed(assembly, deck.contacts, case, solution, settings, lambda record: None, solved=True)
 
 
 def columns(curve: tuple[CurveRow, ...]) -> tuple[np.ndarray, np.ndarray]:

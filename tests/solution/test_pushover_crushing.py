@@ -12,7 +12,7 @@ from mbla.results.listing.pushover import energy_missing
 from mbla.solution.pushover.curve import dropped
 from mbla.solution.pushover.pushed import CurveEnd
 from mbla.solution.verification.pushed_rows import row_residuals
-from tests.line import HEAD, case_of, cases_of, line_of
+from tests.line import HEAD, case_of, cases_of
 
 DECK = (
     HEAD.replace("contacts: {joint: dry}", 'contacts: {joint: dry, points: {per_edge: "=n"}}')
@@ -51,13 +51,13 @@ def test_a_block_that_crushes_its_toe_rocks_about_the_end_of_its_stress_block(so
 
 
 def test_a_row_that_presses_harder_than_the_strength_is_found() -> None:
-    model, contacts, (case,) = cases_of(DECK, "load_cases.push.pushover.steps=1")
-    rows, section = case.solution.pushed, line_of(DECK).deck.contacts
+    assembly, (case,) = cases_of(DECK, "load_cases.push.pushover.steps=1")
+    rows, model = case.solution.pushed, assembly.model
     assert rows is not None
     weaker = {"dry": replace(model.joints["dry"], compressive_strength=0.9 * 200000)}
     good, bad = (
-        row_residuals(each, contacts, section, case.load_case, "non_associative", rows)[-1].law
-        for each in (model, replace(model, joints=weaker))
+        row_residuals(each, case.load_case, "non_associative", rows)[-1].law
+        for each in (assembly, replace(assembly, model=replace(model, joints=weaker)))
     )
     assert good < 1e-6
     assert bad > 0.05

@@ -85,7 +85,7 @@ def test_a_row_that_is_changed_is_not_verified(what: str) -> None:
         points["history"][own, 1:] *= -1.0
     forged = replace(rows, shifts=shifts, load_factors=factors, points=RowPoints(**points))
     solution = replace(case.solution, pushed=forged)
-    of_case = (line.model, line.contacts, line.deck.contacts, case.load_case)
+    of_case = (line.assembly, case.load_case)
     assert curve_of(*of_case, case.solution)[last].residual < 1e-5
     assert curve_of(*of_case, solution)[last].residual > 1e-4
 

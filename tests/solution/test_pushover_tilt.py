@@ -11,7 +11,7 @@ import pytest
 from mbla.results.results import CaseResult
 from mbla.solution.pushover.pushed import CurveEnd
 from mbla.solution.verification.pushed_rows import row_residuals
-from tests.line import HEAD, case_of, cases_of, line_of
+from tests.line import HEAD, case_of, cases_of
 
 DECK = (
     HEAD
@@ -75,12 +75,10 @@ def test_loads_that_do_not_turn_keep_their_direction_in_the_structure() -> None:
 
 
 def test_rows_of_another_angle_are_out_of_balance() -> None:
-    model, contacts, (case,) = cases_of(DECK, "parameters.until=0.03")
-    rows, section = case.solution.pushed, line_of(DECK).deck.contacts
+    assembly, (case,) = cases_of(DECK, "parameters.until=0.03")
+    rows = case.solution.pushed
     assert rows is not None
     forged = replace(rows, load_factors=rows.load_factors + math.radians(0.1))
-    good, bad = (
-        row_residuals(model, contacts, section, case.load_case, "non_associative", each)[-1] for each in (rows, forged)
-    )
+    good, bad = (row_residuals(assembly, case.load_case, "non_associative", each)[-1] for each in (rows, forged))
     assert good.balance < 1e-6
     assert bad.balance > 1e-4

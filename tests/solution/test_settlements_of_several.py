@@ -79,7 +79,7 @@ def test_they_are_followed_by_their_amounts() -> None:
 def test_one_in_a_list_is_that_one_alone() -> None:
     one = "{on: right, direction: [0, 0, -1]}"
     text = BEAM.split("load_cases")[0] + f"load_cases:\n  a: {{settlement: {one}}}\n  b: {{settlement: [{one}]}}\n"
-    first, second = (reaction_of(case) for case in cases_of(text)[2])
+    first, second = (reaction_of(case) for case in cases_of(text)[1])
     assert first == second == pytest.approx(WEIGHT / 3, rel=1e-6)
 
 

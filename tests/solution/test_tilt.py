@@ -51,7 +51,7 @@ analysis: {flow_rule: associative}
 
 def answered(line: Line, ask: Callable[[LoadCase], tuple[Solution, Checks]]) -> Answer:
     """The search for the angle, each load case answered by ``ask``."""
-    trials = Trials(tilt_angles(line.model, line.contacts, line.load_case))
+    trials = Trials(tilt_angles(line.assembly, line.load_case))
     for case in trials:
         trials.answer = Answer(case, *ask(case))
     return trials.answer
@@ -63,10 +63,10 @@ def turned(text: str, *overrides: str) -> Answer:
     def ask(case: LoadCase) -> tuple[Solution, Checks]:
         program = assemble(line.model, line.contacts, case)
         solution = solution_of(replace(line, load_case=case, program=program))
-        return solution, verify(line.model, line.contacts, case, solution)
+        return solution, verify(line.assembly, case, solution)
 
     answer = answered(line, ask)
-    checks = verify(line.model, line.contacts, answer.load_case, answer.solution)
+    checks = verify(line.assembly, answer.load_case, answer.solution)
     return Answer(answer.load_case, answer.solution, checks)
 
 

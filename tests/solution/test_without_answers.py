@@ -11,10 +11,8 @@ import pytest
 from mbla.solution.associative import repair
 from mbla.solution.associative.repair import repaired_forces
 from mbla.solution.associative.solve_associative import solve_associative
-from mbla.solution.linear_algebra.stiffness import Stiffness, stiffness_of
 from mbla.solution.nonassociative import livesley
 from mbla.solution.nonassociative import refine_equilibrium as light_blocks
-from mbla.solution.nonassociative.joint_law import LawProblem, exact_step
 from mbla.solution.nonassociative.law_state import SequenceResult
 from mbla.solution.nonassociative.livesley import solve_livesley
 from mbla.solution.settings import SolverSettings
@@ -45,19 +43,6 @@ def test_a_correction_without_a_solution_says_nothing_of_the_structure(
     assert f"ended without a solution (clarabel: said {said_to_be})" in result.reason
 
 
-@pytest.mark.parametrize("answer", [None, np.nan], ids=["singular", "not a number"])
-def test_a_step_of_the_law_without_a_direction_stays(answer: float | None, monkeypatch: pytest.MonkeyPatch) -> None:
-    program = line_of(BLOCK).program
-    stiffness, slope = stiffness_of(program), np.zeros(program.n_points)
-    anchor = np.ones((program.n_points, 3))
-    found = None if answer is None else lambda rhs: np.full_like(rhs, answer)
-    monkeypatch.setattr(Stiffness, "factorized", lambda *arguments, **named: found)
-    step = exact_step(LawProblem(stiffness, slope, anchor, 1e-2), np.zeros(6), 0.1, 10)
-    assert not step.velocities.any()
-    assert (step.load_factor, step.factorizations) == (0.1, 1)
-    assert step.residual > 1e-3
-
-
 def test_forces_whose_correction_is_no_number_are_not_repaired(monkeypatch: pytest.MonkeyPatch) -> None:
     program = line_of(BLOCK).program
     state = solve_associative(program, SETTINGS, lambda record: None).state
@@ -77,7 +62,7 @@ def test_a_lock_without_forces_that_prove_it_is_not_verified(monkeypatch: pytest
     solution = solution_of(line)
     assert solution.status is Status.NOT_VERIFIED
     assert solution.reason == solve.LOCK_NOT_PROVED
-    checks = verify(line.model, line.contacts, line.load_case, claim(None, Status.UNBOUNDED))
+    checks = verify(line.assembly, line.load_case, claim(None, Status.UNBOUNDED))
     assert checks.failures == ("no forces are given that carry every multiple of the live load",)
 
 

@@ -127,7 +127,7 @@ class Ties:
             breaks_at=self.breaks_at[rows],
         )
 
-    def felt_by(self, rows: IntArray, body: int, pull: FloatArray) -> Ties:
+    def measured_by(self, rows: IntArray, body: int, pull: FloatArray) -> Ties:
         """The same, some of which, (k,), pull at one more body too, along (3,), amid their points."""
         own, first = self.tie_of_point, self.start[rows]
         middles = np.stack([self.places[own == row].mean(axis=0) for row in rows])

@@ -17,6 +17,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from mbla.arrays import FloatArray, IntArray
+from mbla.program.lift import Lift
 from mbla.program.program import Program
 from mbla.program.reductions.restrict import block_matrix, chosen_limits, restricted
 from mbla.program.reductions.scene import SYMMETRIC, Scene
@@ -201,8 +202,8 @@ def _features(points: FloatArray, bodies: IntArray, normals: FloatArray, length:
     return np.column_stack([points / length, 10.0 * np.sort(bodies, axis=1), normals * turned])
 
 
-def half_of(scene: Scene, mirror: Mirror) -> Program:
-    """The program with unknowns on one side of the plane: symmetric motions and symmetric forces.
+def half_of(scene: Scene, mirror: Mirror) -> tuple[Program, Lift]:
+    """The program with unknowns on one side of the plane, symmetric motions and symmetric forces, and the way back.
 
     A point that stands for two has the force and the strength of both, and so moves as each of them does.
     """
@@ -216,8 +217,8 @@ def half_of(scene: Scene, mirror: Mirror) -> Program:
         tension=stands_for * limits.tension,
         compression=stands_for * limits.compression,
     )
-    half = restricted(scene.program, _symmetric_motions(mirror), _symmetric_forces(mirror), limits)
-    return replace(half, halved=True)
+    way = Lift(scene.program, _symmetric_motions(mirror), _symmetric_forces(mirror), scene.program.components)
+    return replace(restricted(scene.program, way.velocities, way.forces, limits), of_blocks=way), way
 
 
 def in_plane_directions(normal: FloatArray) -> FloatArray:

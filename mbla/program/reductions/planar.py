@@ -19,6 +19,7 @@ import scipy.sparse as sp
 
 from mbla.arrays import FloatArray, IntArray
 from mbla.process.sharing import once
+from mbla.program.lift import Lift
 from mbla.program.program import Program
 from mbla.program.reductions.mirror import Mirror, in_plane_motions
 from mbla.program.reductions.restrict import block_matrix, restricted
@@ -35,13 +36,14 @@ def is_planar(scene: Scene, mirror: Mirror) -> bool:
     return itself and float(np.abs(scene.frames[:, 0] @ mirror.normal).max(initial=0.0)) <= scene.symmetric
 
 
-def planar_program(scene: Scene, mirror: Mirror) -> Program:
-    """The program of motions in the plane."""
+def planar_program(scene: Scene, mirror: Mirror) -> tuple[Program, Lift]:
+    """The program of motions in the plane, and the way back from it."""
     places = (scene.centroids, scene.arms, scene.points, scene.frames, scene.areas, scene.bodies, scene.interfaces)
     content = (*places, mirror.normal, mirror.point_of)
     unknowns = once("planar", content, lambda: _unknowns(scene, mirror))
     limits = _added(scene.program.limits, unknowns.group, unknowns.size)
-    return restricted(scene.program, unknowns.velocities, unknowns.forces, limits, components=2)
+    way = Lift(scene.program, unknowns.velocities, unknowns.forces, components=2)
+    return restricted(scene.program, way.velocities, way.forces, limits, components=2), way
 
 
 @dataclass(frozen=True)

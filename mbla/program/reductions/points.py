@@ -25,6 +25,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
+from mbla.program.lift import Lift
 from mbla.program.program import Program
 from mbla.program.reductions.restrict import chosen_limits, restricted, selection
 from mbla.program.reductions.scene import COPLANAR, STRAIGHT_ON, Scene, part_of, turns
@@ -40,14 +41,9 @@ def without_inner_points(scene: Scene) -> Scene:
     if kept.all():
         return scene
     points = np.flatnonzero(kept)
-    n = len(scene.centroids)
-    program = restricted(
-        scene.program,
-        selection(np.arange(n), n, 6),
-        selection(points, scene.program.n_points, 3),
-        chosen_limits(limits, points),
-    )
-    return part_of(scene, program, np.arange(n), points)
+    forces = selection(points, scene.program.n_points, 3)
+    program = restricted(scene.program, None, forces, chosen_limits(limits, points))
+    return part_of(scene, program, np.arange(len(scene.centroids)), points)
 
 
 def _groups(scene: Scene, dry: BoolArray) -> list[IntArray]:
@@ -104,9 +100,12 @@ ALIKE = 1e-9
 """Relative difference of shares that is rounding."""
 
 
-def program_by_shares(part: Scene, program: Program) -> Program:
-    """A program of the part, reduced or not, in such unknowns; the same one where all its points are alike."""
-    share = _shares(part, program)
+def program_by_shares(part: Scene, program: Program, way: Lift) -> Program:
+    """A program of the part, reduced or not, in such unknowns; the same one where all its points are alike.
+
+    way : back from it to that of the part, but for the motions that guides leave
+    """
+    share = _shares(part, way) if part.refined_points.any() else np.ones(program.n_points)
     if np.all(np.abs(share - 1.0) <= ALIKE):
         return program
     root = np.sqrt(share)
@@ -116,28 +115,20 @@ def program_by_shares(part: Scene, program: Program) -> Program:
         tension=program.limits.tension / root,
         compression=program.limits.compression / root,
     )
-    rows = sp.eye_array(len(program.dead_load), format="csr")
-    forces = sp.diags_array(np.repeat(root, program.components), format="csr")
-    by_shares = restricted(program, rows, sp.csr_array(forces), limits, components=program.components)
-    return replace(by_shares, guided=program.guided, halved=program.halved)
+    forces = sp.csr_array(sp.diags_array(np.repeat(root, program.components), format="csr"))
+    of_blocks = program.of_blocks
+    if of_blocks is not None:
+        of_blocks = Lift.after(of_blocks, program, None, forces, program.components)
+    return replace(restricted(program, None, forces, limits), of_blocks=of_blocks, guided=program.guided)
 
 
-def _shares(part: Scene, program: Program) -> FloatArray:
-    """Stiffness s of every point of the program, mean 1 in each interface, (n_points,).
+def _shares(part: Scene, way: Lift) -> FloatArray:
+    """Stiffness s of every point of a program of the part, mean 1 in each interface, (n_points,).
 
     With x = P y between the part and its reduction Σ ‖x‖²/a is Σ ‖y‖²/b: b from the normal components is the area that
     a point of the reduction stands for.
     """
-    if not part.refined_points.any():
-        return np.ones(program.n_points)
-    to_part = sp.eye_array(3 * part.program.n_points, format="csr")
-    maps, reduced = [], program
-    while reduced is not part.program and reduced.reduction is not None:
-        maps.append(reduced.reduction.forces)
-        reduced = reduced.reduction.full
-    for forces in reversed(maps):
-        to_part = to_part @ forces
-    normals = sp.csc_array(to_part.power(2)[::3, :: program.components])
+    normals = sp.csc_array(way.normal_forces.power(2))
     area = 1.0 / np.asarray(normals.T @ (1.0 / part.areas))
     interface = part.interfaces[normals.indices[normals.indptr[:-1]]]
     count, total = np.bincount(interface), np.bincount(interface, area)

@@ -10,6 +10,7 @@ import numpy as np
 from mbla.arrays import FloatArray, IntArray
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import Model
+from mbla.program.lift import Lift
 from mbla.program.program import Program
 from mbla.program.reductions.mirror import Mirror, half_of, mirror_about, mirror_candidates
 from mbla.program.reductions.planar import is_planar, planar_program
@@ -61,18 +62,16 @@ def reduce_program(
     associative : only then may points inside the hull of others and one of two symmetric halves be left out, since
                   the answer is unique. A half is left out as well about a plane that the deck says to mirror it
     """
-    if program.guided and program.reduction is not None:
-        # guides come last, on what the other reductions leave; they have the same points
-        program = program.reduction.full
-    scene, steps = _with_fewer_points(scene_of(model, contacts, program), switches, associative)
+    # guides come last, on what the other reductions leave; they have the same points
+    scene, steps = _with_fewer_points(scene_of(model, contacts, program.full), switches, associative)
     scenes = split_into_parts(scene) if switches.on else [scene]
     steps += _steps_of_parts(scene, scenes, switches)
     smaller = [_reduced_part(part, switches, associative, model.mirrors) for part in scenes]
     steps += _steps_of_planes(scenes, smaller, switches, associative or bool(model.mirrors))
     parts = [  # in the motions that guides allow, and forces by their shares of the area
-        program_by_shares(part, _guided(part, own)) for part, (own, _) in zip(scenes, smaller, strict=True)
+        program_by_shares(part, _guided(part, own), own.way) for part, own in zip(scenes, smaller, strict=True)
     ]
-    size = _model_size(scenes, [mirror for _, mirror in smaller], parts, program.n_points)
+    size = _model_size(scenes, [own.mirror for own in smaller], parts, program.n_points)
     return Reduced(tuple(parts), size, contacts.interface_of_point, tuple(steps))
 
 
@@ -81,8 +80,20 @@ def reduced_whole(scene: Scene, switches: ReductionSwitches, given: Mirrors) -> 
 
     given : planes about which the deck says to mirror it
     """
-    program, _ = _reduced_part(scene, switches, False, given)
-    return _guided(scene, program)
+    return _guided(scene, _reduced_part(scene, switches, False, given))
+
+
+@dataclass(frozen=True)
+class _Smaller:
+    """The program of a part in the unknowns that planes of symmetry leave.
+
+    way    : back from it to that of the part
+    mirror : about which one half of it was left out; None for none
+    """
+
+    program: Program
+    way: Lift
+    mirror: Mirror | None = None
 
 
 def _with_fewer_points(
@@ -112,7 +123,7 @@ def _steps_of_parts(scene: Scene, scenes: Sequence[Scene], switches: ReductionSw
 
 def _steps_of_planes(
     scenes: Sequence[Scene],
-    smaller: Sequence[tuple[Program, Mirror | None]],
+    smaller: Sequence[_Smaller],
     switches: ReductionSwitches,
     mirrored: bool,
 ) -> list[ReductionStep]:
@@ -121,10 +132,11 @@ def _steps_of_planes(
     mirrored : halves may be left out at all
     """
     full = [part.program for part in scenes]
-    planar = [program if program.components == 2 else part for part, (program, _) in zip(full, smaller, strict=True)]
+    left = [own.program for own in smaller]
+    planar = [own if own.components == 2 else part for part, own in zip(full, left, strict=True)]
     n_planar = sum(program.components == 2 for program in planar)
-    n_halved = sum(mirror is not None for _, mirror in smaller)
-    sizes = size_of(full), size_of(planar), size_of([program for program, _ in smaller])
+    n_halved = sum(own.mirror is not None for own in smaller)
+    sizes = size_of(full), size_of(planar), size_of(left)
     return [
         switches.step("planar", True, n_planar, sizes[0], sizes[1]),
         switches.step("mirror", switches.mirror and mirrored, n_halved, sizes[1], sizes[2]),
@@ -145,29 +157,22 @@ def _model_size(
     return ModelSize(dimension, planes, len(parts), blocks, points, n_points - points)
 
 
-def _reduced_part(
-    part: Scene, switches: ReductionSwitches, associative: bool, given: Mirrors
-) -> tuple[Program, Mirror | None]:
+def _reduced_part(part: Scene, switches: ReductionSwitches, associative: bool, given: Mirrors) -> _Smaller:
     """The planar program, that of one half with its mirror, or the part's own."""
     mirror = _first_mirror(part, given) if switches.on and len(part.points) else None
-    if mirror is None:
-        return part.program, None
-    if is_planar(part, mirror):
-        return planar_program(part, mirror), None
-    if switches.mirror and (associative or _is_given(part, mirror.normal, given)):
-        return half_of(part, mirror), mirror
-    return part.program, None
+    if mirror is not None and is_planar(part, mirror):
+        return _Smaller(*planar_program(part, mirror))
+    if mirror is not None and switches.mirror and (associative or _is_given(part, mirror.normal, given)):
+        return _Smaller(*half_of(part, mirror), mirror)
+    return _Smaller(part.program, Lift.identity(part.program))
 
 
-def _guided(part: Scene, smaller: Program) -> Program:
+def _guided(part: Scene, smaller: _Smaller) -> Program:
     """The reduced program of a part, in the motions that its guides allow."""
-    if part.allowed is None:
-        return smaller
-    allowed = part.allowed
-    if smaller is not part.program and smaller.reduction is not None:
-        own = smaller.reduction.velocities
+    own, allowed = smaller.way.velocities, part.allowed
+    if allowed is not None and smaller.program is not part.program:
         allowed = tidy(own.T @ allowed @ own)
-    return guided_program(smaller, allowed)
+    return guided_program(smaller.program, allowed)
 
 
 OFF_PLANE = 1e-6
@@ -203,5 +208,5 @@ def _first_mirror(part: Scene, given: Mirrors) -> Mirror | None:
 
 def unreduced(program: Program, contacts: Contacts) -> Reduced:
     """The program as it is."""
-    size = ModelSize(3, 0, 1, len(program.free), program.n_points, 0)
+    size = ModelSize(3, 0, 1, len(program.facts.free), program.n_points, 0)
     return Reduced((program,), size, contacts.interface_of_point)

@@ -10,55 +10,86 @@ share the symmetry that B stands for.
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 import scipy.sparse as sp
 from scipy.sparse.csgraph import connected_components
 
-from mbla.arrays import FloatArray, IntArray
+from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.model.model import Model
 from mbla.process.sharing import shared
-from mbla.program.program import Program, Reduction, Scaling
+from mbla.program.lift import Lift
+from mbla.program.program import Program, Scaling
 from mbla.program.yield_conditions.limits import YieldLimits
 
 
 def restricted(
     program: Program,
-    velocities: sp.csr_array,
-    forces: sp.csr_array,
+    velocities: sp.csr_array | None,
+    forces: sp.csr_array | None,
     limits: YieldLimits,
     *,
     components: int | None = None,
 ) -> Program:
     """The program in unknowns q and y: equilibrium is SᵀA P y + Sᵀf = 0, its dual the velocities PᵀAᵀS q.
 
-    velocities : S, (n_rows, n_new_rows); forces : P, (components n_points, new components times new points)
+    velocities : S, (n_rows, n_new_rows); forces : P, (components n_points, new components times new points); None for
+                 unknowns that stay
     limits     : of the new points
     """
+    components = components or program.components
+    loads = program.dead_load, program.live_load
+    dead, live = loads if velocities is None else (np.asarray(velocities.T @ load) for load in loads)
     return Program(
         equilibrium_matrix=_in_unknowns(program.equilibrium_matrix, velocities, forces),
-        dead_load=np.asarray(velocities.T @ program.dead_load),
-        live_load=np.asarray(velocities.T @ program.live_load),
+        dead_load=dead,
+        live_load=live,
         limits=limits,
-        free=program.free,
-        n_blocks=program.n_blocks,
         scaling=program.scaling,
-        components=components or program.components,
-        settles=program.settles,
-        reduction=Reduction(program, sp.csr_array(velocities), sp.csr_array(forces)),
+        facts=program.facts,
+        components=components,
+        reduction=Lift.after(program.reduction, program, velocities, forces, components),
     )
 
 
 @shared("restricted")
-def _in_unknowns(matrix: sp.csr_array, velocities: sp.csr_array, forces: sp.csr_array) -> sp.csr_array:
+def _in_unknowns(matrix: sp.csr_array, velocities: sp.csr_array | None, forces: sp.csr_array | None) -> sp.csr_array:
     """SᵀA P."""
-    return tidy(velocities.T @ matrix @ forces)
+    found = matrix if velocities is None else velocities.T @ matrix
+    return tidy(found if forces is None else found @ forces)
 
 
 def chosen_limits(limits: YieldLimits, points: IntArray) -> YieldLimits:
     """Limits of the points with the given numbers, (n_chosen,)."""
     return YieldLimits(**{name: values[points] for name, values in vars(limits).items()})
+
+
+@dataclass(frozen=True)
+class ChosenPart:
+    """Some blocks and points of a program as one of their own.
+
+    points     : (n_chosen,) numbers of the points in the whole
+    velocities : from those of the part to those of the whole, (n_rows of the whole, n_rows)
+    """
+
+    program: Program
+    points: IntArray
+    velocities: sp.csr_array
+
+    @staticmethod
+    def of(whole: Program, moves: BoolArray, points: IntArray) -> ChosenPart:
+        """The part of a program without guides.
+
+        moves : (n_blocks,) blocks that are not held; points : numbers of the chosen ones
+        """
+        ways = selection(np.flatnonzero(moves), len(moves), len(whole.dead_load) // len(moves))
+        forces = selection(points, whole.n_points, whole.components)
+        return ChosenPart(restricted(whole, ways, forces, chosen_limits(whole.limits, points)), points, ways)
+
+    def lifted(self, velocities: FloatArray) -> FloatArray:
+        """Velocities of the whole, (n_rows,), from those of the part."""
+        return np.asarray(self.velocities @ velocities)
 
 
 def selection(kept: IntArray, total: int, size: int) -> sp.csr_array:
@@ -125,13 +156,13 @@ def guided_program(program: Program, projector: sp.csr_array | None) -> Program:
     if projector is None:
         return program
     basis = _basis(projector)
-    forces = sp.eye_array(program.components * program.n_points, format="csr")
-    found = restricted(program, basis, sp.csr_array(forces), program.limits)
+    found = restricted(program, basis, None, program.limits)
     dead, live = (
         np.where(np.abs(along) > ACROSS * (abs(basis).T @ np.abs(loads)), along, 0.0)
         for along, loads in ((found.dead_load, program.dead_load), (found.live_load, program.live_load))
     )
-    return replace(found, dead_load=dead, live_load=live, guided=True)
+    of_blocks = Lift.after(program.of_blocks, program, basis, None, program.components)
+    return replace(found, dead_load=dead, live_load=live, of_blocks=of_blocks, guided=True)
 
 
 def _projector(ways: FloatArray) -> FloatArray:

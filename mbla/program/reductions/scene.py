@@ -51,7 +51,7 @@ class Scene:
     linked    : (m, 2) bodies, as above, that ties link besides those of their points
     linking   : (m,) these points
     allowed   : projector on the motions that guides allow, (6 n_free, 6 n_free) in the program's units; None for all
-    cut       : (n_points,) side on which the gauge feels the force (:mod:`mbla.contacts.gauge`); 0 everywhere without
+    cut       : (n_points,) side on which a load cell measures (:mod:`mbla.assembly.load_cell`); 0 without
     """
 
     program: Program
@@ -91,11 +91,11 @@ class Scene:
 def scene_of(model: Model, contacts: Contacts, program: Program) -> Scene:
     """The scene of the program of the full model."""
     row = np.full(len(model.blocks) + len(model.grounds), -1, dtype=np.int64)
-    row[program.free] = np.arange(len(program.free))
+    row[program.facts.free] = np.arange(len(program.facts.free))
     units = program.scaling.row.reshape(-1, 6)
     return Scene(
         program=program,
-        centroids=model.blocks.centroids[program.free],
+        centroids=model.blocks.centroids[program.facts.free],
         arms=units[:, 0] / units[:, 3],
         points=contacts.points,
         frames=contacts.frames,
@@ -104,7 +104,7 @@ def scene_of(model: Model, contacts: Contacts, program: Program) -> Scene:
         interfaces=contacts.interface_of_point,
         cut=np.zeros(program.n_points, dtype=np.int64) if contacts.cut_of_point is None else contacts.cut_of_point,
         **_links(contacts, row),
-        allowed=program.allowed,
+        allowed=program.facts.allowed,
     )
 
 
@@ -184,8 +184,8 @@ def part_of_blocks(scene: Scene) -> IntArray:
     pairs = np.vstack([scene.bodies[both], scene.linked[(scene.linked >= 0).all(axis=1)]])
     if scene.allowed is not None:  # blocks of one guided body
         pairs = np.vstack([pairs, np.column_stack(scene.allowed.nonzero()) // 6])
-    felt = scene.bodies[scene.cut != 0].max(axis=1)  # by the gauge, which is the last block
-    pairs = np.vstack([pairs, np.column_stack([felt, np.full(len(felt), n - 1)])])
+    measured = scene.bodies[scene.cut != 0].max(axis=1)  # by the load cell, which is the last block
+    pairs = np.vstack([pairs, np.column_stack([measured, np.full(len(measured), n - 1)])])
     return connected_labels(pairs, n)
 
 

@@ -3,8 +3,8 @@
 Reductions are counted in the order in which they are applied, each on what those before it left. Counted are the
 programs that have a live load in them: others only have to show that the dead load is carried.
 
-Glue comes first: blocks that are one rigid body have the unknowns of one (:mod:`mbla.contacts.glue`). It cannot be
-switched off. A glued joint has no law that would give its forces another value than equilibrium leaves open, and no
+Glue comes first: blocks that are one rigid body have the unknowns of one (:mod:`mbla.assembly.rigid_bodies`). It cannot
+be switched off. A glued joint has no law that would give its forces another value than equilibrium leaves open, and no
 strength that could be reached: without merging there would be unknowns for forces that nothing determines. Joints with
 finite strengths high enough give the same load factor, which the tests show.
 """
@@ -17,7 +17,7 @@ from enum import StrEnum
 
 import numpy as np
 
-from mbla.contacts.glue import Solids
+from mbla.assembly.rigid_bodies import RigidBodies
 from mbla.deck.sections.analysis import AnalysisSection
 from mbla.program.program import Program
 
@@ -74,19 +74,19 @@ def size_of(programs: Iterable[Program]) -> ProgramSize:
     )
 
 
-def glued_step(solids: Solids, left: ProgramSize) -> ReductionStep:
+def glued_step(bodies: RigidBodies, left: ProgramSize) -> ReductionStep:
     """Blocks that glue makes part of a larger body or holds; contact points inside of these were never set up.
 
     left : size of the program in which glued blocks are bodies
     """
-    label = solids.solid_of_block
-    held = len(solids.contacts.report.held)
+    label = bodies.body_of_block
+    held = len(bodies.contacts.report.held)
     joined = 0
     saved = held
     if label is not None:
         sizes = np.bincount(label)
         joined = int(sizes[sizes > 1].sum())
-        saved += len(label) - len(sizes)  # a gauge is none of them
+        saved += len(label) - len(sizes)  # a load cell is none of them
     unknowns = left.unknowns + 6 * saved
     before = replace(left, unknowns=unknowns, largest=unknowns)
     state = StepState.APPLIED if saved else StepState.NONE

@@ -12,7 +12,7 @@ from mbla.program.conditions import Conditions, joined
 from mbla.program.program import Program
 from mbla.program.resultants.crushing_cones import crushing_conditions
 from mbla.program.resultants.images import images_of
-from mbla.program.resultants.interface_motions import CrushingInterfaces, crushing_of, forces_of_full
+from mbla.program.resultants.interface_motions import CrushingInterfaces, crushing_of
 from mbla.program.resultants.torsion_cones import torsion_conditions
 from mbla.program.resultants.twisting_interfaces import TwistingInterfaces
 
@@ -27,12 +27,12 @@ def with_conditions_of(
     interfaces = crushing or twisting
     if interfaces is None or program.n_points == 0:
         return program
-    full, forces = forces_of_full(program)
+    full, forces = program.full, program.lift.forces
     owner = interfaces.interface_of_point
     n_interfaces = int(owner.max()) + 1
     first, motions = np.ones(n_interfaces, dtype=bool), sp.csr_array(sp.eye_array(6 * n_interfaces))
     if program.components == 3:
-        images = images_of(program, forces, owner, n_interfaces)
+        images = images_of(forces, owner, n_interfaces)
         first, motions = images.first, images.motions
     found: list[Conditions] = []
     released: BoolArray = np.zeros(program.n_points, dtype=bool)

@@ -13,8 +13,11 @@ import numpy as np
 import scipy.sparse as sp
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
-from mbla.program.program import Program
 from mbla.program.reductions.restrict import block_matrix
+
+
+UNTURNED = 1e-6
+"""Distance of a map of forces from the identity that is rounding: an image of an interface turns them by far more."""
 
 
 @dataclass(frozen=True)
@@ -29,28 +32,18 @@ class Images:
     motions: sp.csr_array
 
 
-def images_of(program: Program, forces: sp.csr_array, interface_of_point: IntArray, n_interfaces: int) -> Images:
+def images_of(forces: sp.csr_array, interface_of_point: IntArray, n_interfaces: int) -> Images:
     """Of the interfaces of a model in a program of it, spatial.
 
-    forces : (3 n_points of the model, 3 n_points) see ``forces_of_full``
+    forces : (3 n_points of the model, 3 n_points) see ``Lift``
     """
     every = np.arange(n_interfaces)
-    if not _is_half(program):
-        return Images(np.ones(n_interfaces, dtype=bool), sp.csr_array(sp.eye_array(6 * n_interfaces)))
     image, maps = every.copy(), np.tile(np.eye(3), (n_interfaces, 1, 1))
     point, other, turned = _pairs(forces)
     interface, place = np.unique(interface_of_point[point], return_index=True)
     image[interface] = interface_of_point[other[place]]
     maps[interface] = turned[place]
     return Images(every <= image, _means(image, maps))
-
-
-def _is_half(program: Program) -> bool:
-    while program.reduction is not None:
-        if program.halved:
-            return True
-        program = program.reduction.full
-    return False
 
 
 def _pairs(forces: sp.csr_array) -> tuple[IntArray, IntArray, FloatArray]:
@@ -70,9 +63,11 @@ def _pairs(forces: sp.csr_array) -> tuple[IntArray, IntArray, FloatArray]:
 
 
 def _means(image: IntArray, maps: FloatArray) -> sp.csr_array:
-    """½ (w + T w'), T = (D, −D): moments are axial."""
+    """½ (w + T w'), T = (D, −D): moments are axial; w of interfaces that are nothing's image."""
     n = len(image)
     axial = np.zeros((n, 6, 6))
     axial[:, :3, :3], axial[:, 3:, 3:] = maps, -maps
+    alone = (image == np.arange(n)) & (np.abs(maps - np.eye(3)).max(axis=(1, 2)) < UNTURNED)
+    axial[alone] = np.eye(6)
     turned = block_matrix(axial, np.arange(n), image, (n, n))
     return sp.csr_array(0.5 * (sp.eye_array(6 * n) + turned))

@@ -112,14 +112,6 @@ class CrushingOfProgram:
     points: BoolArray
 
 
-def forces_of_full(program: Program) -> tuple[Program, sp.csr_array]:
-    """The program of the full model, and its contact forces from those of a program, (3 n_points of it, …)."""
-    forces = sp.eye_array(program.components * program.n_points, format="csr")
-    while program.reduction is not None:
-        forces, program = sp.csr_array(program.reduction.forces @ forces), program.reduction.full
-    return program, forces
-
-
 def tidied(map_: sp.csr_array) -> sp.csr_array:
     """A map without entries that are rounding of zero."""
     found = sp.csr_array(map_)
@@ -130,7 +122,7 @@ def tidied(map_: sp.csr_array) -> sp.csr_array:
 
 def crushing_of(program: Program, interfaces: CrushingInterfaces) -> CrushingOfProgram | None:
     """Interfaces of a program, reduced or not, that crush; None where there are none."""
-    full, forces = forces_of_full(program)
+    full, forces = program.full, program.lift.forces
     chosen = np.isfinite(interfaces.compression)
     here = chosen[interfaces.interface_of_point] & (np.diff(forces[::3].indptr) > 0)
     if not here.any():

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray, row_of_item, starts
+from mbla.assembly.ties import without_ties
 from mbla.contacts.contacts import Contacts
-from mbla.contacts.tied import without_ties
 from mbla.model.solids.convex import convex_loops, signed_areas
 from mbla.model.solids.polygons import convex_hulls
 from mbla.model.solids.ragged import items_of_rows, next_item, row_sums

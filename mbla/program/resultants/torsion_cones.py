@@ -19,7 +19,7 @@ def torsion_conditions(
 ) -> Conditions | None:
     """The conditions of chosen interfaces, (n_interfaces,), that a spatial program has points of; None without.
 
-    forces : (3 n_points of the model, 3 n_points) see ``forces_of_full``
+    forces : (3 n_points of the model, 3 n_points) see ``Lift``
     """
     seen = np.zeros(len(chosen), dtype=bool)
     seen[interfaces.interface_of_point[np.diff(forces[::3].indptr) > 0]] = True

@@ -23,7 +23,7 @@ from mbla.contacts.contacts import Contacts
 from mbla.model.model import Model
 from mbla.program.program import Program
 from mbla.program.resultants.friction_limit import reducing_slopes
-from mbla.program.resultants.interface_motions import forces_of_full, tidied
+from mbla.program.resultants.interface_motions import tidied
 from mbla.program.resultants.shapes import interface_shapes, local_points
 from mbla.program.resultants.torsion import TorsionLimits, torsion_limits
 
@@ -83,7 +83,7 @@ def twisting_of(program: Program, interfaces: TwistingInterfaces) -> TwistingOfP
     """Interfaces of a spatial program, reduced or not, with torsion; None where there are none."""
     if program.components == 2:
         return None
-    limits, (full, forces) = interfaces.limits, forces_of_full(program)
+    limits, full, forces = interfaces.limits, program.full, program.lift.forces
     place = np.full(int(interfaces.interface_of_point.max(initial=-1)) + 1, -1)
     place[limits.interfaces] = np.arange(len(limits.interfaces))
     owner = place[interfaces.interface_of_point]

@@ -18,6 +18,7 @@ from itertools import pairwise
 
 import numpy as np
 
+from mbla.assembly.assembly import Assembly
 from mbla.contacts.contacts import Contacts
 from mbla.deck.section import given
 from mbla.deck.sections.assessment import LIMIT_STATES, AssessmentSection, SpectrumSection
@@ -117,17 +118,17 @@ class _Rows:
 
 
 @kept
-def assessment_of(model: Model, contacts: Contacts, case: CaseResult) -> Assessment | None:
+def assessment_of(assembly: Assembly, case: CaseResult) -> Assessment | None:
     """The assessment that a load case asks for; None where it asks for none."""
-    asked, mechanics = case.load_case.assessment, result_of(case)
+    asked, mechanics, model = case.load_case.assessment, result_of(case), assembly.model.of_case(case.load_case)
     if asked is None:
         return None
     least = least_known(case)
     if mechanics is None or case.status is not Status.SOLVED or not least > 0.0:
         words = "there is no assessment: the load case has no verified load factor above 0"
         return Assessment(NAMES[asked.code], remarks=(Message("assessment-not-done", words),))
-    rows, mechanism = _Rows(asked.code, model.units), kinematic_blocks_of(model, contacts, case.load_case, mechanics)
-    capacity = _capacity(rows, model, contacts, asked, mechanism, _Factor(least, mechanics.load_factor))
+    rows, mechanism = _Rows(asked.code, model.units), kinematic_blocks_of(assembly, case.load_case, mechanics)
+    capacity = _capacity(rows, model, assembly.contacts, asked, mechanism, _Factor(least, mechanics.load_factor))
     _doubts(rows, case, mechanism, _Factor(least, mechanics.load_factor))
     for state in given(asked.spectra, LIMIT_STATES):
         rows.state = state
@@ -137,9 +138,9 @@ def assessment_of(model: Model, contacts: Contacts, case: CaseResult) -> Assessm
     return Assessment(NAMES[asked.code], tuple(rows.figures), tuple(rows.remarks))
 
 
-def with_remarks(model: Model, contacts: Contacts, case: CaseResult) -> CaseResult:
+def with_remarks(assembly: Assembly, case: CaseResult) -> CaseResult:
     """A load case with what stands against its assessment among the remarks on its solution."""
-    found = assessment_of(model, contacts, case)
+    found = assessment_of(assembly, case)
     if found is None:
         return case
     return replace(case, solution=replace(case.solution, remarks=(*case.solution.remarks, *found.remarks)))

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from mbla.arrays import FloatArray, summed
-from mbla.contacts.contacts import Contacts
+from mbla.assembly.assembly import Assembly
 from mbla.model.model import LoadCase, Model
 from mbla.model.pose import Pose
 from mbla.results.collapse.collapse import collapse_of, failure_of
@@ -39,13 +39,14 @@ class KinematicBlocks:
     explained: float
 
 
-def kinematic_blocks_of(model: Model, contacts: Contacts, case: LoadCase, mechanics: Mechanics) -> KinematicBlocks:
+def kinematic_blocks_of(assembly: Assembly, case: LoadCase, mechanics: Mechanics) -> KinematicBlocks:
     """Those of the mechanism of a load case, (n,) clusters that move."""
+    model = assembly.model.of_case(case)
     motion, blocks = mechanics.mechanism, model.blocks
     live = case.live_load[:, :3].sum(axis=0) / model.total_weight
     acceleration = float(np.linalg.norm(live))
     along = live / acceleration
-    failure = failure_of(model, contacts, collapse_of(model, contacts, case, mechanics), mechanics)
+    failure = failure_of(model, assembly.contacts, collapse_of(assembly, case, mechanics), mechanics)
     speeds = (motion[:, :3] + np.cross(motion[:, 3:], blocks.mass_centres - blocks.centroids)) @ along
     moves, count = failure.clusters > 0, int(failure.clusters.max()) + 1
     weights = summed(failure.clusters, model.weights, count)[1:]

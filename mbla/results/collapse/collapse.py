@@ -35,6 +35,7 @@ from typing import ParamSpec, TypeVar
 import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
+from mbla.assembly.assembly import Assembly
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import LoadCase, Model
 from mbla.model.ties.ties import FILL
@@ -100,9 +101,10 @@ class Collapse:
 
 
 @kept
-def collapse_of(model: Model, contacts: Contacts, load_case: LoadCase, mechanics: Mechanics) -> Collapse:
+def collapse_of(assembly: Assembly, load_case: LoadCase, mechanics: Mechanics) -> Collapse:
     """The mechanism of one load case."""
-    parts = rigid_parts(model, contacts, mechanics.mechanism, together_of(mechanics))
+    model, contacts = assembly.model.of_case(load_case), assembly.contacts
+    parts = rigid_parts(model, assembly.glued(load_case), mechanics.mechanism, together_of(mechanics))
     rows = tie_rows(model, mechanics)
     states, soil = [row.state for row in rows], [row.state for row in rows if row.form == FILL]
     return Collapse(
@@ -118,15 +120,16 @@ def collapse_of(model: Model, contacts: Contacts, load_case: LoadCase, mechanics
 # --- How a structure without equilibrium falls ----------------------------------------------------------------------
 
 
-def fall_of(model: Model, contacts: Contacts, certificate: FloatArray) -> tuple[Collapse, Mechanics]:
+def fall_of(assembly: Assembly, load_case: LoadCase, certificate: FloatArray) -> tuple[Collapse, Mechanics]:
     """The failure of a motion, (n_blocks, 6), with nan for every power, and the motion as mechanics without forces."""
+    model, contacts = assembly.model.of_case(load_case), assembly.contacts
     velocities = contact_velocities(model, contacts, certificate)
     none, limits = np.zeros_like(velocities), yield_limits(model, contacts)
     dry = replace(limits, cohesion=np.zeros_like(limits.cohesion), tension=np.zeros_like(limits.tension))
     modes = contact_modes(none, velocities, dry, limits.friction)
     mechanics = Mechanics(np.nan, none, velocities, certificate, modes)
     unknown = np.full(len(contacts), np.nan)
-    parts = rigid_parts(model, contacts, certificate)
+    parts = rigid_parts(model, assembly.glued(load_case), certificate)
     return Collapse(
         interfaces=interface_motion(model, contacts, mechanics),
         parts=parts,

@@ -34,8 +34,8 @@ import numpy as np
 import scipy.sparse as sp
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
+from mbla.assembly.rigid_bodies import RigidBodies
 from mbla.contacts.contacts import Contacts
-from mbla.contacts.glue import solids_of
 from mbla.model.model import Model
 from mbla.program.assemble import yield_limits
 from mbla.results.collapse.collapse import kept
@@ -68,17 +68,16 @@ class ForceFreedom:
 
 
 @kept
-def force_freedom(model: Model, contacts: Contacts, mechanics: Mechanics, dimension: int) -> ForceFreedom | str:
+def force_freedom(bodies: RigidBodies, mechanics: Mechanics, dimension: int) -> ForceFreedom | str:
     """How far the forces may vary; where that is not determined, why, in words that follow ``as``.
 
     dimension : in which the case was solved, 2 or 3
     """
+    model, contacts = bodies.model, bodies.contacts
     if reason := _not_of_these(model):
         return reason
     if not len(contacts):
         return "there are no contacts"
-    solids = solids_of(model, contacts)
-    model, contacts = solids.model, solids.contacts
     rows = _plane_rows(contacts, mechanics.mechanism) if dimension == 2 else np.eye(6)
     if rows is None:
         return "the plane of the structure is not clear"

@@ -13,8 +13,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray, summed
+from mbla.assembly.lift import motions_of_bodies
+from mbla.assembly.rigid_bodies import RigidBodies
 from mbla.contacts.contacts import Contacts
-from mbla.contacts.glue import solids_of
 from mbla.model.model import Model
 from mbla.model.solids.measures import connected_labels
 from mbla.results.collapse.interface_modes import TOGETHER, fastest_tie, moves_together
@@ -53,18 +54,17 @@ class PartMotion:
     direction: FloatArray
 
 
-def rigid_parts(model: Model, contacts: Contacts, motion: FloatArray, together: float = TOGETHER) -> IntArray:
+def rigid_parts(model: Model, bodies: RigidBodies, motion: FloatArray, together: float = TOGETHER) -> IntArray:
     """Number of the part of each block, (n_blocks,), 0 at rest, from a motion, (n_blocks, 6).
 
+    bodies   : that glue makes of its blocks
     together : share of the largest speed up to which blocks move as one
     """
-    solids = solids_of(model, contacts)
-    fastest = fastest_tie(model, motion)
-    parts = _parts_of_solids(solids.model, solids.contacts, solids.solid_motions(motion), together, fastest)
-    return parts if solids.solid_of_block is None else parts[solids.solid_of_block]
+    fastest, of_bodies = fastest_tie(model, motion), motions_of_bodies(bodies, motion)
+    return _parts_of_bodies(bodies.model, bodies.contacts, of_bodies, together, fastest)[bodies.label]
 
 
-def _parts_of_solids(model: Model, contacts: Contacts, motion: FloatArray, together: float, fastest: float) -> IntArray:
+def _parts_of_bodies(model: Model, contacts: Contacts, motion: FloatArray, together: float, fastest: float) -> IntArray:
     n_blocks, velocities = len(model.blocks), contact_velocities(model, contacts, motion)
     blocks = np.where(resting_blocks(model, motion, together), n_blocks, np.arange(n_blocks))  # what rests is one node
     node = np.append(blocks, np.full(len(model.grounds), n_blocks))
@@ -80,14 +80,14 @@ LEAST_TOGETHER = 1e-10
 """of the largest speed, below which all is rounding"""
 
 
-def parts_of_one_twist(model: Model, contacts: Contacts, motion: FloatArray) -> IntArray:
+def parts_of_one_twist(model: Model, bodies: RigidBodies, motion: FloatArray) -> IntArray:
     """Rigid parts, (n_blocks,), so fine that each moves by one twist, from a motion, (n_blocks, 6).
 
     Contacts that hardly move add up along a part: one that its common twist does not reproduce is divided where its
     contacts move ten times less, and so on.
     """
     free, together = model.free, TOGETHER
-    parts = rigid_parts(model, contacts, motion)
+    parts = rigid_parts(model, bodies, motion)
     if not len(free):
         return parts
     mean = float(np.average(block_speeds(model, motion)[free], weights=model.blocks.masses[free]))
@@ -102,7 +102,7 @@ def parts_of_one_twist(model: Model, contacts: Contacts, motion: FloatArray) -> 
         if not divided.any():
             break
         together /= 10.0
-        finer = rigid_parts(model, contacts, motion, together)
+        finer = rigid_parts(model, bodies, motion, together)
         parts = numbered(model, np.where(divided & (finer > 0), len(parts) + finer, parts), 0)
     return parts
 

@@ -21,8 +21,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
+from mbla.assembly.rigid_bodies import RigidBodies
 from mbla.contacts.contacts import Contacts
-from mbla.contacts.glue import solids_of
 from mbla.model.model import Model
 from mbla.program.assemble import yield_limits
 from mbla.results.collapse.interface_modes import sum_by_interface
@@ -186,20 +186,20 @@ def _gauge(points: FloatArray, directions: FloatArray, arms: FloatArray) -> Floa
 # --- chains -------------------------------------------------------------------------------------------------------
 
 
-def interface_chains(model: Model, contacts: Contacts) -> tuple[IntArray, ...]:
+def interface_chains(bodies: RigidBodies) -> tuple[IntArray, ...]:
     """Interfaces in their order along each row of blocks that has one interface before each block and one behind it.
 
     Rows have at least two such blocks, and so three interfaces: one block alone with two interfaces is every corner of
     a wall. A closed ring starts and ends with the same interface. Blocks that are glued to each other count as one;
     supports and blocks with another number of interfaces end a row.
     """
-    solids = solids_of(model, contacts)
-    bodies, n_blocks = solids.contacts.bodies, len(solids.model.blocks)
-    degree = np.bincount(bodies.ravel(), minlength=n_blocks + len(model.grounds))[:n_blocks]
-    inner = ~solids.model.fixed & (degree == 2)
-    neighbours: list[list[int]] = [[] for _ in range(len(bodies))]
-    ends, side = np.nonzero(np.append(inner, np.zeros(len(model.grounds), dtype=bool))[bodies])
-    owner = bodies[ends, side]
+    model, pairs = bodies.model, bodies.contacts.bodies
+    n_bodies = len(model.blocks)
+    degree = np.bincount(pairs.ravel(), minlength=n_bodies + len(model.grounds))[:n_bodies]
+    inner = ~model.fixed & (degree == 2)
+    neighbours: list[list[int]] = [[] for _ in range(len(pairs))]
+    ends, side = np.nonzero(np.append(inner, np.zeros(len(model.grounds), dtype=bool))[pairs])
+    owner = pairs[ends, side]
     order = np.argsort(owner, kind="stable")
     for first, second in ends[order].reshape(-1, 2).tolist():
         neighbours[first].append(second)
@@ -227,10 +227,10 @@ def _walks(neighbours: list[list[int]]) -> list[IntArray]:
     return [walk for walk in walks if len(walk) > 2]
 
 
-def thrust_lines(model: Model, contacts: Contacts, thrust: Thrust) -> tuple[IntArray, ...]:
+def thrust_lines(bodies: RigidBodies, thrust: Thrust) -> tuple[IntArray, ...]:
     """Lines of thrust as interfaces in their order, (n,) each; a chain is cut where an interface carries nothing."""
     lines = []
-    for chain in interface_chains(model, contacts):
+    for chain in interface_chains(bodies):
         cuts = np.flatnonzero(~thrust.carried[chain])
         lines += [piece[thrust.carried[piece]] for piece in np.split(chain, cuts)]
     return tuple(line for line in lines if len(line) > 1)
@@ -240,7 +240,7 @@ PARALLEL = 0.01
 """sine of the angle between two joints next but one to each other up to which they are parallel: half a degree"""
 
 
-def curvature_sides(model: Model, contacts: Contacts) -> FloatArray:
+def curvature_sides(bodies: RigidBodies) -> FloatArray:
     """Direction out of the curve where blocks form a chain, as in an arch, (n_interfaces, 3); zero elsewhere.
 
     Of three joints that follow each other the middle one lies outside the line between the other two by the rise of the
@@ -248,8 +248,9 @@ def curvature_sides(model: Model, contacts: Contacts) -> FloatArray:
     A pile that leans over has parallel joints and is no curve.
     A joint at the end of a chain takes the direction of the next one. Blocks that are glued count as one.
     """
-    outward, centroids = np.zeros((len(contacts), 3)), contacts.centroids
-    for chain in interface_chains(model, contacts):
+    centroids, normals = bodies.contacts.centroids, bodies.contacts.normals
+    outward = np.zeros_like(centroids)
+    for chain in interface_chains(bodies):
         ring = chain[0] == chain[-1]
         first, middle, last = chain[:-2], chain[1:-1], chain[2:]
         if ring:
@@ -259,7 +260,7 @@ def curvature_sides(model: Model, contacts: Contacts) -> FloatArray:
         length = np.linalg.norm(chord, axis=1)
         with np.errstate(divide="ignore", invalid="ignore"):
             rise -= (np.einsum("ij,ij->i", rise, chord) / length**2)[:, None] * chord
-        turned = np.linalg.norm(np.cross(contacts.normals[first], contacts.normals[last]), axis=1)
+        turned = np.linalg.norm(np.cross(normals[first], normals[last]), axis=1)
         curved = np.linalg.norm(rise, axis=1) > 1e-3 * length  # none where two blocks meet in two joints: no chord
         curved &= turned > PARALLEL
         outward[middle[curved]] = rise[curved]

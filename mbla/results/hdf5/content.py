@@ -9,6 +9,7 @@ import numpy as np
 
 from mbla import __version__
 from mbla.arrays import FloatArray, IntArray, starts
+from mbla.assembly.assembly import Assembly
 from mbla.contacts.contacts import ContactReport, Contacts
 from mbla.deck.sections.selectors import POSITIONS
 from mbla.errors import Message, Notice
@@ -96,7 +97,7 @@ def content_of(results: Results) -> Content:
     for load_case in results.model.load_cases:
         content |= _below(f"cases/{load_case.name}", _loads(load_case))
     for case in results.cases:
-        content |= _below(f"cases/{case.load_case.name}", case_content(results.model, results.contacts, case))
+        content |= _below(f"cases/{case.load_case.name}", case_content(results.assembly, case))
     return content
 
 
@@ -229,9 +230,9 @@ def _loads(load_case: LoadCase) -> Content:
 # --- what was found for a load case -------------------------------------------------------------------------------
 
 
-def case_content(model: Model, contacts: Contacts, case: CaseResult) -> Content:
+def case_content(assembly: Assembly, case: CaseResult) -> Content:
     """Everything of one load case but its loads, by the path below it."""
-    solution, checks, model = case.solution, case.checks, model.of_case(case.load_case)
+    solution, checks = case.solution, case.checks
     content: Content = {
         **_held(solution, Solution, "cases/*"),
         "status": case.status.value,
@@ -252,7 +253,7 @@ def case_content(model: Model, contacts: Contacts, case: CaseResult) -> Content:
     if solution.geometric_safety is not None:
         held = _held(solution.geometric_safety, GeometricSafety, "cases/*/geometric_safety")
         content |= _below("geometric_safety", held)
-    assessment = assessment_of(model, contacts, case)
+    assessment = assessment_of(assembly, case)
     if assessment is not None:
         content |= _columns("assessment", Figure, assessment.figures)
     settlement = case.load_case.settlement
@@ -261,10 +262,10 @@ def case_content(model: Model, contacts: Contacts, case: CaseResult) -> Content:
     for part, (group, _) in ANSWERS.items():
         mechanics: Mechanics | None = getattr(solution, part)
         if mechanics is not None and not (part == "associative" and associative_is_own(case)):
-            residual = residual_of(model, contacts, case.load_case, solution, part)
+            residual = residual_of(assembly, case.load_case, solution, part)
             own = _answer(mechanics) | {"residual": residual}
             content |= {f"{group}/{name}".lstrip("/"): value for name, value in own.items()}
-    return content | _collapse(model, contacts, case) | _further(solution)
+    return content | _collapse(assembly, case) | _further(solution)
 
 
 def _pushed(rows: PushedRows) -> Content:
@@ -308,12 +309,12 @@ def _motions(prefix: str, motions: FloatArray | None) -> Content:
     return {} if motions is None else {f"{prefix}{name}": motions[:, row] for row, name in enumerate(MOTIONS)}
 
 
-def _collapse(model: Model, contacts: Contacts, case: CaseResult) -> Content:
+def _collapse(assembly: Assembly, case: CaseResult) -> Content:
     """What follows from the mechanism, for readers of the file."""
     mechanics = case.solution.mechanics
     if mechanics is None:
         return {}
-    collapse = collapse_of(model, contacts, case.load_case, mechanics)
+    collapse = collapse_of(assembly, case.load_case, mechanics)
     motion = collapse.interfaces
     return {
         "parts": collapse.parts,

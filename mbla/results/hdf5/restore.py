@@ -7,14 +7,14 @@ square.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any, cast
 
 import numpy as np
 
 from mbla.arrays import FloatArray
+from mbla.assembly.assembly import Assembly
 from mbla.contacts.contacts import ContactReport, Contacts
-from mbla.contacts.glue import solids_of
-from mbla.contacts.tied import tied
 from mbla.deck.sections.assessment import AssessmentSection
 from mbla.deck.sections.selectors import POSITIONS
 from mbla.deck.units import KILOGRAMS, METRES, NEWTONS, Units
@@ -62,8 +62,9 @@ def results_from(content: Content, attributes: dict[str, str | int]) -> Results:
         if none and load_cases[name].objective is None:
             raise ValueError(f"{name}: no live load on blocks that can move")
     cases = tuple(case_from(load_cases[name], _part(get, f"cases/{name}/")) for name in solved)
+    assembly = Assembly(model, contacts)
     for case in cases:
-        check_carriers(model, contacts, case)
+        check_carriers(assembly, case)
     return Results(
         deck=DeckRecord(
             name=get["deck/name"],
@@ -72,8 +73,7 @@ def results_from(content: Content, attributes: dict[str, str | int]) -> Results:
             sha256=str(attributes["deck_sha256"]),
             files=_side_files(_part(get, "deck/")),
         ),
-        model=model,
-        contacts=contacts,
+        assembly=assembly,
         cases=cases,
         notices=_notices(_part(get, "notices/")),
         provenance=dict(zip(get["provenance/names"], get["provenance/values"], strict=True)),
@@ -87,13 +87,13 @@ def results_from(content: Content, attributes: dict[str, str | int]) -> Results:
     )
 
 
-def check_carriers(model: Model, contacts: Contacts, case: CaseResult) -> None:
+def check_carriers(assembly: Assembly, case: CaseResult) -> None:
     """Raises ValueError where forces are not those of all contact points and of the ties behind them."""
     solution = case.solution
     standing = None if solution.standing is None else solution.standing.forces
     found = [forces for forces in (standing, solution.lock, solution.level_lock) if forces is not None]
     if found:
-        carriers = tied(solids_of(model.of_case(case.load_case), contacts)).contacts.points
+        carriers = assembly.of(replace(case.load_case, objective=None)).contacts.points
         if any(len(forces) != len(carriers) for forces in found):
             raise ValueError(f"{case.load_case.name}: forces of another number of contact points and ties")
 

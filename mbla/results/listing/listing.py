@@ -9,7 +9,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from mbla.contacts.contacts import Contacts
+from mbla.assembly.assembly import Assembly
 from mbla.model.model import Model
 from mbla.results.collapse.collapse import collapse_of, failure_of
 from mbla.results.collapse.force_freedom import enough_of, force_freedom
@@ -60,27 +60,28 @@ class Section:
     lines: list[str]
 
 
-def case_lines(model: Model, contacts: Contacts, case: CaseResult) -> list[str]:
+def case_lines(assembly: Assembly, case: CaseResult) -> list[str]:
     """All sections of a load case, as the listing has them."""
     lines = heading(f"Load case {case.load_case.name}")
-    return lines + [line for section in case_sections(model, contacts, case) for line in section.lines]
+    return lines + [line for section in case_sections(assembly, case) for line in section.lines]
 
 
-def case_sections(model: Model, contacts: Contacts, case: CaseResult) -> list[Section]:
+def case_sections(assembly: Assembly, case: CaseResult) -> list[Section]:
     """Sections on a load case, the verdict and the failure first; no section is empty."""
-    solution, held, model = case.solution, model, model.of_case(case.load_case)
-    mechanics, load_case, how = solution.mechanics, case.load_case, description_of(model, contacts, case)
+    solution, load_case, held, contacts = case.solution, case.load_case, assembly.model, assembly.contacts
+    model, mechanics, how = held.of_case(load_case), solution.mechanics, description_of(assembly, case)
     summary = "" if how is None or mechanics is None else mechanism_summary(model, how.collapse, how.failure)
-    code, sentences = code_verdict(model, contacts, case), [] if how is None else how.sentences
+    code, sentences = code_verdict(assembly, case), [] if how is None else how.sentences
     sections = [Section("Verdict", _verdict_lines(model, case, summary, code, sentences))]
     if how is not None:
-        sections.append(Section("Mechanism", mechanism_lines(model, contacts, how.failure)))
+        sections.append(Section("Mechanism", mechanism_lines(assembly, load_case, how.failure)))
     if mechanics is not None and how is not None:
         work = enough_lines(case, enough_of(model, contacts, how.collapse.parts))
         work += work_lines(load_case, how.collapse.work, soil=bool(model.ties.of_fill.any()))
         reactions = reaction_lines(held, contacts, load_case, mechanics)  # a support is one even as it gives way
         reactions += group_reaction_lines(held, contacts, mechanics)
-        reactions += freedom_lines(contacts, case, force_freedom(model, contacts, mechanics, dimension_of((case,))))
+        freedom = force_freedom(assembly.glued(load_case), mechanics, dimension_of((case,)))
+        reactions += freedom_lines(contacts, case, freedom)
         sections += [Section("Work", ["", *work]), Section("Reactions", reactions)]
         sections.append(Section(tie_title(model), tie_force_lines(model, mechanics)))
         if solution.force_ranges is not None:
@@ -95,19 +96,19 @@ def case_sections(model: Model, contacts: Contacts, case: CaseResult) -> list[Se
         Section("Pushover", curve_lines(model, case)),
         Section("Geometric safety", geometric_safety_lines(case)),
         Section("Sensitivity", sensitivity_lines(case)),
-        Section("Assessment", assessment_lines(model, contacts, case)),
+        Section("Assessment", assessment_lines(assembly, case)),
         Section("Solver programs", program_lines(solution)),
     ]
     return [section for section in sections if any(section.lines)]
 
 
-def find_failure(model: Model, contacts: Contacts, case: CaseResult) -> None:
+def find_failure(assembly: Assembly, case: CaseResult) -> None:
     """Find how a case fails, which is kept for listing, files and pictures: takes longest on large models."""
-    model, mechanics = model.of_case(case.load_case), case.solution.mechanics
+    load_case, mechanics = case.load_case, case.solution.mechanics
     if mechanics is not None:
-        collapse = collapse_of(model, contacts, case.load_case, mechanics)
-        failure_of(model, contacts, collapse, mechanics)
-        force_freedom(model, contacts, mechanics, dimension_of((case,)))
+        collapse = collapse_of(assembly, load_case, mechanics)
+        failure_of(assembly.model.of_case(load_case), assembly.contacts, collapse, mechanics)
+        force_freedom(assembly.glued(load_case), mechanics, dimension_of((case,)))
 
 
 def _verdict_lines(model: Model, case: CaseResult, summary: str, code: str, sentences: Sequence[str]) -> list[str]:
@@ -142,7 +143,7 @@ def listing(results: Results, *, every_position: bool = False) -> str:
     ]
     detailed = results.cases if every_position else detailed_cases(results.cases)
     for case in detailed:
-        lines += case_lines(results.model, results.contacts, case)
+        lines += case_lines(results.assembly, case)
     for series in series_of(results.cases):
         lines += series_lines(results.model, series)
         if len(detailed) < len(results.cases):
@@ -180,7 +181,7 @@ def _recap(results: Results) -> list[str]:
     lines = heading("Summary")
     for case in detailed_cases(results.cases):
         lines += entry(case.load_case.name, verdict(results.model, case))
-        code = code_verdict(results.model.of_case(case.load_case), results.contacts, case)
+        code = code_verdict(results.assembly, case)
         lines += sentence(code, "    ") if code else []
     lines += [line for series in series_of(results.cases) for line in sentence(worst_words(results.model, series))]
     for found in force_ranges_of(results.cases):

@@ -13,6 +13,7 @@ from typing import TypeVar
 import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
+from mbla.assembly.assembly import Assembly
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import LoadCase, Model
 from mbla.results.collapse.collapse import Collapse, Failure, collapse_of, failure_of, fall_of
@@ -47,18 +48,18 @@ class FailureDescription:
     sentences: list[str]
 
 
-def description_of(model: Model, contacts: Contacts, case: CaseResult) -> FailureDescription | None:
+def description_of(assembly: Assembly, case: CaseResult) -> FailureDescription | None:
     """From the mechanism, a result or not; without equilibrium from the motion that proves it; None without any."""
     load_case, mechanics, certificate = case.load_case, case.solution.mechanics, case.solution.certificate
-    remark = []
+    model, remark = assembly.model.of_case(load_case), []
     if mechanics is not None:
-        collapse = collapse_of(model, contacts, load_case, mechanics)
+        collapse = collapse_of(assembly, load_case, mechanics)
     elif certificate is not None:
-        collapse, mechanics = fall_of(model, contacts, certificate)
+        collapse, mechanics = fall_of(assembly, load_case, certificate)
         remark = [LIFTS] if collapse.interfaces.slides.any() else []
     else:
         return None
-    failure = failure_of(model, contacts, collapse, mechanics)
+    failure = failure_of(model, assembly.contacts, collapse, mechanics)
     return FailureDescription(collapse, failure, failure_sentences(model, load_case, collapse, failure) + remark)
 
 
@@ -165,11 +166,12 @@ def _yield_words(model: Model, line: YieldLine) -> str:
 T = TypeVar("T", HingeLine, SlidingPlane, Crack)
 
 
-def mechanism_lines(model: Model, contacts: Contacts, failure: Failure) -> list[str]:
+def mechanism_lines(assembly: Assembly, load_case: LoadCase, failure: Failure) -> list[str]:
     """Parts, then a table each for hinge lines, sliding planes and cracks."""
+    model, contacts, outward = assembly.model, assembly.contacts, curvature_sides(assembly.glued(load_case))
     return [
         *part_lines(model, failure.motions),
-        *_hinge_table(model, contacts, failure.hinge_lines),
+        *_hinge_table(model, contacts, outward, failure.hinge_lines),
         *_sliding_table(model, contacts, failure.sliding_planes),
         *_crack_table(model, contacts, failure.cracks),
     ]
@@ -184,8 +186,7 @@ def part_lines(model: Model, motions: Sequence[PartMotion]) -> list[str]:
     return long_table(["part", "motion", f"weight [{model.units.force}]"], rows, len(motions), left=2)
 
 
-def _hinge_table(model: Model, contacts: Contacts, lines: Sequence[HingeLine]) -> list[str]:
-    outward = curvature_sides(model, contacts)
+def _hinge_table(model: Model, contacts: Contacts, outward: FloatArray, lines: Sequence[HingeLine]) -> list[str]:
     rows = [
         [
             *_joint(model, contacts, line.interfaces, line.clusters),

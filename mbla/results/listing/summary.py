@@ -92,22 +92,22 @@ def _codes(results: Results, cases: Sequence[CaseResult]) -> list[str]:
     """What codes say, a line for each case that asks for it."""
     lines = []
     for case in cases:
-        says = code_verdict(results.model.of_case(case.load_case), results.contacts, case)
+        says = code_verdict(results.assembly, case)
         lines += sentence(f"{case.load_case.name}: {says}") if says else []
     return lines
 
 
 def _in_words(results: Results, case: CaseResult) -> list[str]:
     """How it collapses; where it does not, or that is not known, why and what is known all the same."""
-    model, contacts, found = results.model.of_case(case.load_case), results.contacts, result_of(case)
+    model, found = results.model.of_case(case.load_case), result_of(case)
     fails = found is not None or case.solution.mechanics is None
-    how = description_of(model, contacts, case) if fails else None
+    how = description_of(results.assembly, case) if fails else None
     text, details = f"{case.load_case.name}: {verdict(model, case)}", []
     if how is not None:  # what the heaviest part does; of a fall how much moves, too
         text += "" if found is None else f": {mechanism_summary(model, how.collapse, how.failure)}"
         details = how.sentences[:2] if found is None else how.sentences[1:2]
     lines = sentence(text)
-    assessed = assessment_words(model, contacts, case)
+    assessed = assessment_words(results.assembly, case)
     said = (least_words(model, case), torsion_words(model, case), *details, *reasons(case), bound_words(model, case))
     for words in (*said, curve_words(model, case) or no_curve_words(case), assessed):
         lines += sentence(words, DETAIL)

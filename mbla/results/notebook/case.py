@@ -129,7 +129,7 @@ class Case:
         found = result_of(self.record)
         if found is None:
             return None
-        return collapse_of(self.model, self.results.contacts, self.record.load_case, found)
+        return collapse_of(self.results.assembly, self.record.load_case, found)
 
     @property
     def curve(self) -> FloatArray | None:
@@ -148,7 +148,7 @@ class Case:
 
         ``figures`` has every figure on the way with its article, ``remarks`` what stands against them.
         """
-        return assessment_of(self.model, self.results.contacts, self.record)
+        return assessment_of(self.results.assembly, self.record)
 
     @property
     def thrust(self) -> Thrust | None:
@@ -181,7 +181,7 @@ class Case:
         if found is not None and collapse is not None:
             failure = failure_of(self.model, self.results.contacts, collapse, found)
             how = f": {mechanism_summary(self.model, collapse, failure)}"
-        code = code_verdict(self.model, self.results.contacts, self.record)
+        code = code_verdict(self.results.assembly, self.record)
         return f"{self.name}: {self.verdict}{how}{f'. {code}' if code else ''}"
 
     def picture(self, path: str | Path | None = None, *, kind: str = "mechanism", format: str | None = None) -> Picture:

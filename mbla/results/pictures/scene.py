@@ -74,7 +74,7 @@ class Scene(RecordScene):
         if self.collapse is not None and self.mechanics is not None:
             return self.collapse, self.mechanics
         motion = self.case.solution.certificate
-        return None if motion is None else fall_of(self.model, self.contacts, motion)
+        return None if motion is None else fall_of(self.assembly, self.case.load_case, motion)
 
     @cached_property
     def failure(self) -> Failure | None:
@@ -114,7 +114,7 @@ class Scene(RecordScene):
         other = other_end(self.results.cases, self.case)
         if other is None or other.solution.mechanics is None:
             return None
-        return Scene(self.model, self.contacts, other, self.results, np.zeros_like(self.motion), self.shown_cases)
+        return Scene(self.assembly, other, self.results, np.zeros_like(self.motion), self.shown_cases)
 
     @property
     def forces(self) -> FloatArray | None:
@@ -190,9 +190,8 @@ class Scene(RecordScene):
 
 def scene_of(results: Results, case: CaseResult, options: PictureOptions, kind: str) -> Scene:
     """A case as a picture of that kind shows it: moved in a picture of the mechanism, at rest in others."""
-    model = results.model.of_case(case.load_case)
     shown = [each for each in results.cases if options.case in (None, each.load_case.name, each.load_case.deck_name)]
-    scene = Scene(model, results.contacts, case, results, np.zeros((len(model.blocks), 6)), tuple(shown))
+    scene = Scene(results.assembly, case, results, np.zeros((len(results.model.blocks), 6)), tuple(shown))
     return scene.moved_to(options.scale) if kind == "mechanism" else scene
 
 

@@ -81,7 +81,7 @@ def _of_parts(of: Callable[..., Any]) -> Callable[[Scene, str], Any]:
 
 def _assessed(scene: Scene, name: str) -> float | None:
     """Capacity over demand at the limit state that a name ends with, the least where it names none."""
-    found = None if scene.case is None else assessment_of(scene.model, scene.contacts, scene.case)
+    found = None if scene.case is None else assessment_of(scene.assembly, scene.case)
     ratios = {} if found is None else {name: each.value for name, each in found.ratios.items()}
     state = name.removeprefix("assessment_ratio").removeprefix("_")
     return ratios.get(state) if state else min(ratios.values(), default=None)

@@ -177,10 +177,10 @@ def case_json(scene: Scene) -> dict[str, Any]:
         "curve_last_error": as_json(solution.curve_last_error),
         "sensitivity": as_json(solution.sensitivity),
         "geometric_safety": _geometric_safety(solution),
-        "assessment": as_json(assessment_of(model, scene.contacts, case)),
+        "assessment": as_json(assessment_of(scene.assembly, case)),
         "mechanism": None
         if mechanics is None
-        else mechanism_json(model, scene.contacts, case.load_case, mechanics, dimension_of((case,))),
+        else mechanism_json(scene.assembly, case.load_case, mechanics, dimension_of((case,))),
         "reactions": None if mechanics is None else _reactions(scene, case, mechanics),
         "ties": as_json(tie_rows(model, mechanics)),
         "time": {"total": number(solution.seconds), "solver": number(solver)},

@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import partial
 from typing import Any
 
+from mbla.assembly.assembly import Assembly
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import LoadCase, Model
 from mbla.results.collapse.collapse import Collapse, collapse_of, failure_of, mechanism_class
@@ -45,16 +46,15 @@ class OnDemand(Mapping[str, Any]):
         return len(self._makers)
 
 
-def mechanism_json(
-    model: Model, contacts: Contacts, load_case: LoadCase, mechanics: Mechanics, dimension: int
-) -> OnDemand:
+def mechanism_json(assembly: Assembly, load_case: LoadCase, mechanics: Mechanics, dimension: int) -> OnDemand:
     """Contact points by mode, interfaces by mode, parts and work; ``dimension``: in which the case was solved.
 
     A value is found when it is asked for: all of them take as long as to verify a small model.
     """
+    model, contacts = assembly.model.of_case(load_case), assembly.contacts
 
     def collapse() -> Collapse:
-        return collapse_of(model, contacts, load_case, mechanics)
+        return collapse_of(assembly, load_case, mechanics)
 
     def failure() -> Any:
         return failure_of(model, contacts, collapse(), mechanics)
@@ -87,7 +87,7 @@ def mechanism_json(
             "main_parts": lambda: parts(failure().motions),
             "main_parts_explain": lambda: number(failure().explained),
             "yield_lines": lambda: lines("yield_lines"),
-            "force_freedom": lambda: _force_freedom(force_freedom(model, contacts, mechanics, dimension)),
+            "force_freedom": lambda: _force_freedom(force_freedom(assembly.glued(load_case), mechanics, dimension)),
             "enough": lambda: _enough(model, contacts, collapse()),
             "work": lambda: _work(model, contacts, load_case, mechanics, collapse()),
         }

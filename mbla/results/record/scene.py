@@ -10,6 +10,8 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
+from mbla.assembly.assembly import Assembly
+from mbla.assembly.rigid_bodies import RigidBodies
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import Model
 from mbla.results.collapse.collapse import Collapse, collapse_of
@@ -32,13 +34,26 @@ load alone"""
 class Scene:
     """A model and one of its load cases, or the model alone.
 
-    model : as it may move under the load case (``Model.of_case``)
-    case  : None for the model alone
+    case : None for the model alone
     """
 
-    model: Model
-    contacts: Contacts
+    assembly: Assembly
     case: CaseResult | None
+
+    @cached_property
+    def model(self) -> Model:
+        """As it may move under the load case."""
+        return self.assembly.model if self.case is None else self.assembly.model.of_case(self.case.load_case)
+
+    @property
+    def contacts(self) -> Contacts:
+        """As found."""
+        return self.assembly.contacts
+
+    @property
+    def bodies(self) -> RigidBodies:
+        """That glue makes of the blocks."""
+        return self.assembly.glued(None if self.case is None else self.case.load_case)
 
     @property
     def result(self) -> Mechanics | None:
@@ -94,7 +109,7 @@ class Scene:
         """What follows from the mechanism."""
         if self.case is None or self.mechanics is None:
             return None
-        return collapse_of(self.model, self.contacts, self.case.load_case, self.mechanics)
+        return collapse_of(self.assembly, self.case.load_case, self.mechanics)
 
     @property
     def interfaces(self) -> InterfaceMotion | None:
@@ -109,7 +124,7 @@ class Scene:
     @cached_property
     def lines(self) -> tuple[IntArray, ...]:
         """Thrust lines, interfaces in their order, (n,) each."""
-        return () if self.thrust is None else thrust_lines(self.model, self.contacts, self.thrust)
+        return () if self.thrust is None else thrust_lines(self.bodies, self.thrust)
 
     @cached_property
     def torsion_use(self) -> FloatArray | None:
@@ -143,12 +158,12 @@ class Scene:
     @cached_property
     def parts(self) -> IntArray:
         """Part of each block in the motion as drawn, (n_blocks,), 0 at rest."""
-        return rigid_parts(self.model, self.contacts, self.motion) if self.collapse is None else self.collapse.parts
+        return rigid_parts(self.model, self.bodies, self.motion) if self.collapse is None else self.collapse.parts
 
 
 def scene_of(results: Results, case: CaseResult) -> Scene:
     """The scene of a load case of a run."""
-    return Scene(results.model.of_case(case.load_case), results.contacts, case)
+    return Scene(results.assembly, case)
 
 
 Values: TypeAlias = "np.typing.NDArray[Any]"

@@ -98,7 +98,7 @@ class CaseContent:
 def case_content(results: Results, case: CaseResult, number: int, figures: Figures, view: str) -> CaseContent:
     """The content of load case ``number``, from 1."""
     key = f"case-{number}"
-    verdict_section, *others = case_sections(results.model, results.contacts, case)
+    verdict_section, *others = case_sections(results.assembly, case)
     return CaseContent(
         id=key,
         name=case.load_case.name,

@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from mbla.contacts.contacts import Contacts
+from mbla.assembly.assembly import Assembly
 from mbla.deck import Deck
 from mbla.model import Model
 from mbla.results.outcome import WITH_VALUE, least_factor, ratio_of
@@ -94,12 +94,11 @@ def at_work(results: Results, case: CaseResult) -> bool:
     return case.load_case.name in results.not_done[:1] and case.load_case.pushover is not None
 
 
-def held_against_deck(deck: Deck, model: Model, contacts: Contacts, case: CaseResult, *, done: bool) -> Found:
+def held_against_deck(deck: Deck, assembly: Assembly, case: CaseResult, *, done: bool) -> Found:
     """A load case against what its deck asks for.
 
-    model : as it may move under the load case
-    case  : with checks, status and curve recomputed
-    done  : False where the run was stopped while it pushed on the load case, so that the rest is missing
+    case : with checks, status and curve recomputed
+    done : False where the run was stopped while it pushed on the load case, so that the rest is missing
     """
     found, end = Found(), case.solution.curve_end
     found.differences += [f"the file has {what}, which the deck does not ask for" for what in _not_asked(deck, case)]
@@ -108,12 +107,12 @@ def held_against_deck(deck: Deck, model: Model, contacts: Contacts, case: CaseRe
     if not done:
         return found
     if case.load_case.pushover is not None:
-        found.differences += pushover_differences(deck, model, contacts, case)
+        found.differences += pushover_differences(deck, assembly, case)
         found.of_pushover += [] if found.differences else pushover_claims(case)
-    _limits(found, deck, model, contacts, case)
-    _associative(found, model, contacts, case)
+    _limits(found, deck, assembly, case)
+    _associative(found, assembly, case)
     _history(found, deck, case)
-    _path(found, deck, model, case)
+    _path(found, deck, assembly.model.of_case(case.load_case), case)
     _least(found, deck, case)
     if _torsion_unverified(case):
         found.unconfirmed.append("the state with torsion of uniform pressure is not verified")
@@ -145,14 +144,14 @@ def _not_asked(deck: Deck, case: CaseResult) -> Iterator[str]:
     return (what for what, (part, asked) in present.items() if part is not None and not asked)
 
 
-def _limits(found: Found, deck: Deck, model: Model, contacts: Contacts, case: CaseResult) -> None:
+def _limits(found: Found, deck: Deck, assembly: Assembly, case: CaseResult) -> None:
     """Standing, geometric safety and ranges of normal forces; slopes are found again."""
     solution, knobs = case.solution, settings_for(case.load_case, solver_settings(deck.analysis))
     claims = solution.status in (*WITH_VALUE, Status.UNBOUNDED)
     if knobs.standing and claims and solution.standing is None:
         found.differences.append(lacks("standing"))
     if deck.analysis.geometric_safety and solution.geometric_safety is None:
-        against = why_no_geometric_safety(model, contacts, case.load_case, deck.analysis)
+        against = why_no_geometric_safety(assembly.model, assembly.contacts, case.load_case, deck.analysis)
         if not against:
             _missing(found, "geometric factor of safety", case, "geometric-safety-not-done")
     asked = knobs.analysis.force_ranges and solution.mechanics is not None and not solution.conditions_on_interfaces
@@ -160,12 +159,12 @@ def _limits(found: Found, deck: Deck, model: Model, contacts: Contacts, case: Ca
         found.differences.append(lacks("ranges of normal forces"))
 
 
-def _associative(found: Found, model: Model, contacts: Contacts, case: CaseResult) -> None:
+def _associative(found: Found, assembly: Assembly, case: CaseResult) -> None:
     """The associative answer, which every run with a load factor leaves unless friction locks with normality."""
     solution = case.solution
     if solution.mechanics is None or solution.associative is not None:
         return
-    if locked_with_normality(model, contacts, case.load_case, solution):
+    if locked_with_normality(assembly, case.load_case, solution):
         return
     found.unconfirmed.append("the file has no associative answer")
 

@@ -13,9 +13,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import replace
 
-from mbla.contacts.contacts import Contacts
-from mbla.contacts.glue import solids_of
-from mbla.contacts.tied import tied
+from mbla.assembly.assembly import Assembly
 from mbla.deck import Deck
 from mbla.model import Model
 from mbla.program.build import build_program
@@ -37,18 +35,17 @@ BY_STEPS = 0.01
 """Share by which steps may move a load factor: mostly they do by 0.1 to 0.5 per cent."""
 
 
-def paths_again(deck: Deck, model: Model, contacts: Contacts, case: CaseResult) -> tuple[PathAgain, ...]:
+def paths_again(deck: Deck, assembly: Assembly, case: CaseResult) -> tuple[PathAgain, ...]:
     """The paths that are followed anew, beside the figures of the file; none where it has no path.
 
-    model : as it may move under the load case
-    case  : with checks and status recomputed
+    case : with checks and status recomputed
     """
-    own = result_of(case)
+    own, model = result_of(case), assembly.model.of_case(case.load_case)
     if own is None or not case.by_path:
         return ()
 
     def beside(ratio: float, of: float, in_file: float, allowed: float) -> PathAgain:
-        again, seen = _load_factor(deck, model, contacts, case, ratio)
+        again, seen = _load_factor(deck, assembly, case, ratio)
         off = apart(model, case.load_case, again, in_file)
         carried = case.status is Status.APPROXIMATE and off <= allowed
         again, off = (again, off) if seen or carried else (math.nan, math.nan)
@@ -66,13 +63,13 @@ def paths_again(deck: Deck, model: Model, contacts: Contacts, case: CaseResult) 
     return (same,) if math.isnan(found.load_factor) else (found, same)
 
 
-def _load_factor(deck: Deck, model: Model, contacts: Contacts, case: CaseResult, ratio: float) -> tuple[float, bool]:
+def _load_factor(deck: Deck, assembly: Assembly, case: CaseResult, ratio: float) -> tuple[float, bool]:
     """What the path of joints with a ratio of stiffness reaches, nan for nothing, and whether that is all."""
     settings = settings_for(case.load_case, solver_settings(deck.analysis))
     path = settings.analysis.path.model_copy(update={"ratio": ratio})
     analysis = settings.analysis.model_copy(update={"path": path, "accuracy": "standard", "force_ranges": False})
     settings = replace(settings, analysis=analysis, steps=STEPS, search=0.0, torsion=False, standing=False)
-    program = build_program(tied(solids_of(model, contacts, case.load_case)), case.load_case, analysis)
+    program = build_program(assembly, case.load_case, analysis)
     found = solve(program, settings)
     if found.status is Status.UNBOUNDED:
         return math.inf, True

@@ -10,9 +10,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from mbla.contacts.contacts import Contacts
+from mbla.assembly.assembly import Assembly
 from mbla.deck import Deck
-from mbla.model import Model
 from mbla.results.results import CaseResult
 from mbla.solution.pushover.curve import why_not_pushed
 from mbla.solution.pushover.ends import SHOWN, end_failure, gaps
@@ -26,14 +25,14 @@ NOTABLE = 0.02
 """Energy over the greatest whose loss must have a reason."""
 
 
-def pushover_differences(deck: Deck, model: Model, contacts: Contacts, case: CaseResult) -> Iterator[str]:
+def pushover_differences(deck: Deck, assembly: Assembly, case: CaseResult) -> Iterator[str]:
     """Where a pushover is not what its deck and its own rows give, in words.
 
-    model : as it may move under the load case
-    case  : with checks, status and curve recomputed
+    case : with checks, status and curve recomputed
     """
     solution, load_case = case.solution, case.load_case
-    against = why_not_pushed(model, contacts, load_case, solution, case.status is Status.SOLVED)
+    model = assembly.model.of_case(load_case)
+    against = why_not_pushed(model, assembly.contacts, load_case, solution, case.status is Status.SOLVED)
     if solution.pushed is None:
         if not against:
             yield "the deck asks for the pushover, which the file does not have"
@@ -48,7 +47,7 @@ def pushover_differences(deck: Deck, model: Model, contacts: Contacts, case: Cas
     yield from _rows_missing(case)
     if failure := energy_failure(load_case, solution.pushed):
         yield failure
-    if (row := row_of_another_law(model, contacts, deck.contacts, solution.pushed)) is not None:
+    if (row := row_of_another_law(assembly, deck.contacts, load_case, solution.pushed)) is not None:
         yield f"step {row} of the pushover has contact points with a joint law that its deck does not give them"
     if _comes_back(solution.pushed):
         yield "blocks that have fallen are part of the structure again further on in the pushover"

@@ -12,7 +12,7 @@ from dataclasses import replace
 import numpy as np
 
 from mbla.arrays import FloatArray
-from mbla.contacts.contacts import Contacts
+from mbla.assembly.assembly import Assembly
 from mbla.deck import Deck
 from mbla.model import Model
 from mbla.results.listing.history_words import pushover_words
@@ -34,11 +34,10 @@ SMALL_ERROR = 1e-4
 """Error over the greatest load factor that need not be the same."""
 
 
-def pushover_again(deck: Deck, model: Model, contacts: Contacts, case: CaseResult) -> PushoverAgain | None:
+def pushover_again(deck: Deck, assembly: Assembly, case: CaseResult) -> PushoverAgain | None:
     """The pushover followed anew, beside that of the file; None where it has none, or cannot have.
 
-    model : as it may move under the load case
-    case  : with checks, status and curve recomputed
+    case : with checks, status and curve recomputed
     """
     own, load_case = case.solution, case.load_case
     if own.pushed is None or load_case.pushover is None or len(own.curve) < 2 or case.status is not Status.SOLVED:
@@ -48,7 +47,7 @@ def pushover_again(deck: Deck, model: Model, contacts: Contacts, case: CaseResul
         load_case = replace(load_case, pushover=asked)
     settings = replace(settings_for(load_case, solver_settings(deck.analysis)), deadline=None)
     bare = replace(own, pushed=None, curve=(), curve_end=CurveEnd.NONE, remarks=())
-    again = pushed(model, contacts, deck.contacts, load_case, bare, settings, lambda record: None, solved=True)
+    again = pushed(assembly, deck.contacts, load_case, bare, settings, lambda record: None, solved=True)
     return None if again.pushed is None else _beside(case, again)
 
 

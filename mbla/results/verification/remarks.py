@@ -10,10 +10,9 @@ import math
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 
-from mbla.contacts.contacts import Contacts
+from mbla.assembly.assembly import Assembly
 from mbla.deck import Deck
 from mbla.errors import Message
-from mbla.model import Model
 from mbla.results.assessment.assessment import assessment_of
 from mbla.results.collapse.ties import brittle_remarks
 from mbla.results.explanations import explanations
@@ -55,13 +54,13 @@ NUMBER = re.compile(r"(-?\d+(?:\.\d+)?(?:e[+-]?\d+)?)")
 """numbers in words"""
 
 
-def remarks_found_again(deck: Deck, model: Model, contacts: Contacts, case: CaseResult) -> tuple[Message, ...]:
+def remarks_found_again(deck: Deck, assembly: Assembly, case: CaseResult) -> tuple[Message, ...]:
     """The remarks that a run must make of a load case, in its order.
 
-    model : as it may move under the load case
-    case  : with checks, status and curve recomputed
+    case : with checks, status and curve recomputed
     """
     load_case, solution = case.load_case, case.solution
+    model, contacts = assembly.model.of_case(load_case), assembly.contacts
     found: list[Message] = []
     tilt = load_case.tilt
     if tilt is not None and not tilt.tangent and _at_collapse(solution):
@@ -70,7 +69,7 @@ def remarks_found_again(deck: Deck, model: Model, contacts: Contacts, case: Case
     if load_case.pushover is not None:
         against = why_not_pushed(model, contacts, load_case, solution, case.status is Status.SOLVED)
         if solution.pushed is not None and solution.mechanics is not None:
-            found += pushover_remarks(model, contacts, load_case, solution)
+            found += pushover_remarks(model, load_case, solution)
         found += [no_pushover(against)] if against else []
     if deck.analysis.sensitivity is not False:
         against = why_no_sensitivity(load_case, solution, case.checks)
@@ -79,7 +78,7 @@ def remarks_found_again(deck: Deck, model: Model, contacts: Contacts, case: Case
         against = why_no_geometric_safety(model, contacts, load_case, deck.analysis)
         found += [no_geometric_safety(against)] if against else []
     found += brittle_remarks(model, solution)
-    assessment = assessment_of(model, contacts, case)
+    assessment = assessment_of(assembly, case)
     return (*found, *(() if assessment is None else assessment.remarks))
 
 

@@ -66,7 +66,7 @@ def write_mesh_files(results: Results, out: OutputFolder, frames: int) -> None:
 def write_model_vtu(results: Results, out: OutputFolder) -> None:
     """``STEM_blocks.vtu``, ``STEM_contacts.vtu``, ``STEM_interfaces.vtu``, ``STEM_supports.vtu``, without a case."""
     _write_supports(results, out)
-    _write_scene(Scene(results.model, results.contacts, None), out.stem, out)
+    _write_scene(Scene(results.assembly, None), out.stem, out)
 
 
 def _write(mesh: Mesh | None, name: str, out: OutputFolder) -> str:

@@ -68,11 +68,8 @@ def steepest_fall(program: Program, settings: SolverSettings, log: Log) -> Float
 
 def _sizes_of_loads(program: Program) -> sp.csr_array:
     """W by the size of each block's dead load, the mean of the others' where it has none, (n_rows, n_rows)."""
-    way_back = sp.csr_array(sp.eye_array(len(program.dead_load), format="csr"))
-    while program.reduction is not None:
-        way_back = sp.csr_array(program.reduction.velocities @ way_back)
-        program = program.reduction.full
-    sizes = np.linalg.norm(program.dead_load.reshape(-1, 6), axis=1)
+    way_back = program.lift.velocities
+    sizes = np.linalg.norm(program.full.dead_load.reshape(-1, 6), axis=1)
     sizes = np.where(sizes > 0, sizes, sizes[sizes > 0].mean())
     springs = way_back.T @ sp.diags_array(np.repeat(sizes, 6)) @ way_back
     squares = way_back.power(2)

@@ -107,16 +107,11 @@ def force_ranges(
 
 def normal_sums(program: Program, interface_of_point: IntArray) -> sp.csr_array:
     """Rows that add up the normal forces of each interface of the model, (n_interfaces, components n_points)."""
-    chain: sp.csr_array | None = None
-    while program.reduction is not None:
-        forces = program.reduction.forces
-        chain = forces if chain is None else sp.csr_array(forces @ chain)
-        program = program.reduction.full
-    points = np.arange(program.n_points)
-    shape = (int(interface_of_point.max(initial=-1)) + 1, program.components * program.n_points)
-    entries = (np.ones(len(points)), (interface_of_point, program.components * points))
-    sums = sp.csr_array(entries, shape=shape)
-    return sums if chain is None else sp.csr_array(sums @ chain)
+    full, forces = program.full, program.lift.forces
+    places = full.components * np.arange(full.n_points)
+    shape = (int(interface_of_point.max(initial=-1)) + 1, full.components * full.n_points)
+    sums = sp.csr_array((np.ones(len(places)), (interface_of_point, places)), shape=shape)
+    return sp.csr_array(sums @ forces)
 
 
 def _trusted_motion(program: Program, state: LawState) -> PointMotion:

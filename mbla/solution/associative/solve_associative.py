@@ -110,7 +110,7 @@ def solve_associative(
         return _undecided(run, answer.solution)
     if not stress_free or settings.deadline is not None:
         # where a support gives way, forces at any load factor carry the dead load, with another reaction
-        shown = program.settles and answer.gap is not None and np.isfinite(answer.gap.static)
+        shown = program.facts.settles and answer.gap is not None and np.isfinite(answer.gap.static)
         return _with_dead_load(run, form, answer, proved=bool(shown))
     state = stress_free_state(program)
     result = _with_dead_load(run, form, answer, proved=_proves(run, state))
@@ -123,7 +123,7 @@ def _proves(run: AssociativeRun, state: StressFree) -> bool:
         return False
     if run.program.conditions is not None:  # which these forces need not fulfil
         return False
-    if run.program.settles:  # with the reaction that it has while it is held
+    if run.program.facts.settles:  # with the reaction that it has while it is held
         return _carries(run, state.rest.forces, state.rest.load_factor)
     return _carried_alone(run.program.without_live_load(), state.rest.forces) or _carries(run, state.rest.forces, 0.0)
 

@@ -9,14 +9,12 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-import numpy as np
-
 from mbla.solution.flow.fall import ELASTIC, Fall
 from mbla.solution.flow.gravity_step import Gravity
 from mbla.solution.flow.path_record import ElasticPath, PathStep, Stop
-from mbla.solution.flow.peak_step import EXACT, PeakStep, centred, solved_peak
+from mbla.solution.flow.peak_step import EXACT, PeakStep, at_rest_of, centred, solved_peak
 from mbla.solution.flow.settings import PathSettings
-from mbla.solution.flow.unit_of_displacement import PRESSED, Measure
+from mbla.solution.flow.unit_of_displacement import Measure
 from mbla.solution.law.elastic_joints import ElasticJoints
 from mbla.solution.law.joint_equations import JointStep
 
@@ -59,8 +57,7 @@ class _Path:
         self.needed, motion = needed, measure.motion
         self.joints, self.measure, self.settings, self.memory = joints, measure, settings, gravity.memory
         self.force = max(gravity.force, measure.force_of(joints.program))
-        normal = np.maximum(gravity.state.normal, PRESSED * self.force)
-        self.state = replace(gravity.state, u=motion / float(joints.program.live_load @ motion), normal=normal)
+        self.state = replace(gravity.state, u=motion / float(joints.program.live_load @ motion))
         self.length, self.displacement = settings.first, 0.0
         self.top: PeakStep | None = None
         self.half: PeakStep | None = None
@@ -104,8 +101,9 @@ class _Path:
         """A step of a length in units."""
         h = length * self.measure.displacement
         sigma = self.force**2 / (self.settings.smoothing * h)
-        start = centred(self.joints, self.state, sigma, 0.95)
-        step = PeakStep(JointStep(self.joints, self.memory, h), sigma, start, self.displacement + length)
+        step = JointStep(self.joints, self.memory, h)
+        start = centred(self.joints, at_rest_of(step, self.state, sigma), sigma, 0.95)
+        step = PeakStep(step, sigma, start, self.displacement + length)
         there, spent = solved_peak(step, self.force)
         self.factorizations += spent
         return there

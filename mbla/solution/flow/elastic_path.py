@@ -21,11 +21,11 @@ from mbla.solution.flow.fall import Fall
 from mbla.solution.flow.gravity_step import Gravity
 from mbla.solution.flow.greatest_steps import GreatestSteps
 from mbla.solution.flow.path_record import ElasticPath, PathStep, Stop
-from mbla.solution.flow.peak_step import PeakStep, centred, with_openings
+from mbla.solution.flow.peak_step import PeakStep, at_rest_of, centred, with_openings
 from mbla.solution.flow.settings import PathSettings
 from mbla.solution.flow.unit_of_displacement import Measure, mean_live_load
 from mbla.solution.law.brittle import let_go, share_until_break, without
-from mbla.solution.law.elastic_joints import ElasticJoints, Memory, StepState, smoothed_margin
+from mbla.solution.law.elastic_joints import ElasticJoints, Memory, StepState
 from mbla.solution.law.joint_equations import JointStep, residual_of
 from mbla.solution.law.joint_step import direction_of, length_of
 
@@ -120,17 +120,9 @@ class _Path:
         self.peaks = GreatestSteps(self.force, self.unit)
         self.h, self.kappa = self.settings.first * self.unit, self.settings.smoothing
         self.good, self.memory = self.h, self.gravity.memory
-        at_rest = replace(self.gravity.state, u=motion / float(live @ motion), normal=self._pressed())
-        self.state = centred(joints, at_rest, self.sigma, 0.99)
-
-    def _pressed(self) -> FloatArray:
-        """Normal forces at rest, smoothed as the first step is: (N − N̄) N = σ k_N h, (n_points,)."""
-        joints, limits = self.joints, self.joints.program.limits
-        trial, product = self.memory.normal + limits.tension, self.sigma * joints.normal * self.h
-        pressed = smoothed_margin(trial, product) - limits.tension
-        middle = 0.5 * (self.gravity.state.normal + limits.compression)[joints.crushable]
-        pressed[joints.crushable] = np.minimum(pressed[joints.crushable], middle)
-        return np.asarray(pressed)
+        at_rest = replace(self.gravity.state, u=motion / float(live @ motion))
+        step = JointStep(joints, self.memory, self.h)
+        self.state = centred(joints, at_rest_of(step, at_rest, self.sigma), self.sigma, 0.99)
 
     @property
     def sigma(self) -> float:

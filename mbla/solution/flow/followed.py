@@ -6,7 +6,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from mbla.arrays import BoolArray, IntArray
+from mbla.arrays import BoolArray
+from mbla.program.reductions.restrict import ChosenPart
 from mbla.solution.flow.converged_path import follow_solved
 from mbla.solution.flow.elastic_path import follow
 from mbla.solution.flow.gravity_step import Gravity
@@ -36,14 +37,14 @@ class AtRest:
     """What is followed, under its dead load.
 
     settings : of its paths
-    points   : (n,) points of the program that have joints; None for all
+    part     : which alone is followed; None for all
     begins   : load factor from which that of its paths counts
     """
 
     joints: ElasticJoints
     gravity: Gravity
     settings: PathSettings
-    points: IntArray | None = None
+    part: ChosenPart | None = None
     begins: float = 0.0
 
     @property
@@ -127,7 +128,7 @@ def is_too_rough(path: ElasticPath, rest: AtRest, measure: Measure) -> bool:
     it was solved.
     """
     joints, counted = rest.joints, [step.load_factor for step in path.steps if step.counted]
-    if joints.program.settles or rest.twists or joints.brittle.any():
+    if joints.program.facts.settles or rest.twists or joints.brittle.any():
         return False
     changed = abs(path.load_factor - max(counted, default=0.0)) > ROUGH * path.load_factor
     return path.peak is None or changed or path.load_factor < LOW * measure.load_factor

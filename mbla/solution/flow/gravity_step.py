@@ -26,8 +26,12 @@ from mbla.solution.law.elastic_joints import ElasticJoints, Memory, StepState
 from mbla.solution.law.exact_law import forces_by_law
 from mbla.solution.law.joint_equations import JointStep, residual_of
 from mbla.solution.law.joint_step import direction_of, length_of
+from mbla.solution.law.newton import by_newton
 from mbla.solution.nonassociative.imbalance import imbalance
 from mbla.solution.nonassociative.law_state import LawState
+
+NEWTON, ROUNDING = 20, 1e-11
+"""Iterations of Newton's method at most, and force without balance, in mean loads of a block, with which it is solved."""
 
 STEPS = 100
 """At most; 10 to 25 are usual where a dead load is carried."""
@@ -100,8 +104,12 @@ def gravity_step(joints: ElasticJoints, least_force: float = 0.0, gaps: FloatArr
     """
     program, n = joints.program, joints.program.n_points
     force = float(np.abs(program.dead_load).sum()) / max(n, 1) or least_force or 1.0
-    held = program.settles and bool(np.any(program.live_load))
-    fresh, spent = Memory.stress_free(joints, gaps), 0
+    held = program.facts.settles and bool(np.any(program.live_load))
+    fresh = Memory.stress_free(joints, gaps)
+    step = JointStep(joints, fresh, 1.0, driven=held, work=0.0, held=WEAKER * HELD[0] * joints.matrix.size)
+    exact, spent = (None, 0) if joints.laws else _exactly(step)
+    if exact is not None:
+        return _at_rest(step, exact, force, spent)
     for share in HELD:
         step = JointStep(joints, fresh, 1.0, driven=held, work=0.0, held=share * joints.matrix.size)
         state, settled, more = _solved(step, force)
@@ -125,9 +133,22 @@ def gravity_step(joints: ElasticJoints, least_force: float = 0.0, gaps: FloatArr
             spent += more
             settled = carried = sharp.is_solved and _is_carried(joints, sharp.state)
             state, step = (sharp.state, weaker) if carried else (state, step)
-    memory = fresh.after(joints, joints.velocities(state.u), state.normal, joints.motions(state.u))
-    memory = replace(memory, shear=state.shear)
-    return Gravity(state, memory, force, settled, carried, spent, step)
+    return replace(_at_rest(step, state, force, spent), settled=settled, carried=carried)
+
+
+def _at_rest(step: JointStep, state: StepState, force: float, spent: int) -> Gravity:
+    joints = step.joints
+    memory = step.memory.after(joints, joints.velocities(state.u), state.normal, joints.motions(state.u))
+    return Gravity(state, replace(memory, shear=state.shear), force, True, True, spent, step)
+
+
+def _exactly(step: JointStep) -> tuple[StepState | None, int]:
+    """The state by Newton's method, None where that comes to none that carries the dead load; factorisations."""
+    joints = step.joints
+    found = by_newton(step, np.zeros(len(joints.program.dead_load)), 0.0, most=NEWTON, balanced=ROUNDING)
+    state = found.state_of(step)
+    solved = found.unbalanced <= ROUNDING and _is_carried(joints, state)
+    return state if solved else None, found.iterations
 
 
 def _stays(step: JointStep, state: StepState, weaker: JointStep, close: StepState) -> bool:
@@ -143,8 +164,8 @@ def _carries(found: PeakStep, least: float) -> bool:
     step, state, joints = found.step, found.state, found.step.joints
     if joints.laws or found.misfit > FITS or found.sigma > least:
         return False
-    normal, shear = forces_by_law(step, state)
-    return _is_carried(joints, replace(state, normal=normal, shear=shear))
+    forces = forces_by_law(step, state.u)
+    return _is_carried(joints, replace(state, normal=forces.normal, shear=forces.shear))
 
 
 def _is_carried(joints: ElasticJoints, state: StepState) -> bool:

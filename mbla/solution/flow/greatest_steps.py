@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
 
-from mbla.solution.flow.peak_step import PeakStep, solved_peak
+from mbla.solution.flow.peak_step import PeakStep, at_rest_of, centred, solved_peak
 
 NEAR, MOST_NEAR = 1e-3, 8
 """Share of the peak within which another step stands for it where its own cannot be solved, and how many are tried: of
@@ -14,9 +14,9 @@ LEVEL = 1e-5
 """Share of the peak by which a later step may lie below it and take its place: where the load stays joints that hold no
 longer creep, and the motion is that of the fall."""
 
-ONWARDS, ALIKE = 0.05, 1e-3
-"""Length of the short step after that of the peak, in units, and share of its load factor within which it stands for
-it."""
+ONWARDS, WITHIN, ALIKE = 0.05, 0.95, 1e-3
+"""Length of the short step after that of the peak, in units, share of its limit within which shear begins in it, and
+share of the load factor of the peak within which it stands for it."""
 
 
 @dataclass
@@ -90,6 +90,7 @@ class GreatestSteps:
         What the smoothed steps before have left is made up for in the step of the peak, whose motion has that in it.
         """
         step = replace(top.step, memory=top.memory, length=ONWARDS * self.unit)
-        after = self.solve(replace(top, step=step))
+        start = centred(step.joints, at_rest_of(step, top.state, top.sigma), top.sigma, WITHIN)
+        after = self.solve(replace(top, step=step, state=start))
         level = after.is_solved and abs(after.state.factor - top.state.factor) <= ALIKE * abs(top.state.factor)
         return after if level else top

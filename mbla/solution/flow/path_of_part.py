@@ -19,6 +19,7 @@ import numpy as np
 from mbla.arrays import BoolArray, FloatArray
 from mbla.process.sharing import shared
 from mbla.program.program import Program
+from mbla.program.reductions.restrict import ChosenPart
 from mbla.program.stiffness_shares import shares_of
 from mbla.solution.associative.solve_associative import AssociativeResult
 from mbla.solution.flow.followed import AtRest, Followed, as_it_gives_way, followed, measured_by_itself
@@ -29,7 +30,7 @@ from mbla.solution.flow.settings import RATIOS, PathSettings
 from mbla.solution.flow.unit_of_displacement import Measure, elastic_motion, mean_live_load, measure_of
 from mbla.solution.law.elastic_joints import ElasticJoints
 from mbla.solution.law.interfaces import NONE, Interfaces
-from mbla.solution.nonassociative.moving_part import MovingPart, moving_part
+from mbla.solution.nonassociative.moving_part import moving_part
 from mbla.solution.solution import Status
 
 MOST_STEPS_OF_PART = 2000
@@ -73,7 +74,7 @@ class PathOfPart:
     @property
     def lets_rest(self) -> bool:
         """Whether only what moves was followed."""
-        return self.rest is not None and self.rest.points is not None
+        return self.rest is not None and self.rest.part is not None
 
     @property
     def is_answer(self) -> bool:
@@ -156,7 +157,7 @@ def path_by(
     dilatancy: FloatArray | None = None,
     interfaces: Interfaces = NONE,
     gaps: FloatArray | None = None,
-    part: MovingPart | None = None,
+    part: ChosenPart | None = None,
     gravity: Gravity | None = None,
 ) -> PathOfPart:
     """The path of a program by its load factor of associative flow, None where it has none.
@@ -177,13 +178,13 @@ def path_by(
     ends = _ends_at_rest(rest, program, associative)
     if ends is not None:
         return PathOfPart(ends, rest=rest, factorizations=rest.gravity.steps)
-    if program.settles:
+    if program.facts.settles:
         rest, scale = as_it_gives_way(rest, (program if part is None else part.program).own_unit)
     elif associative is None:
         return _record(measured_by_itself(rest, scale), rest)
     measure = measure_of(rest.joints, scale, rest.pressed)
     if part is not None:
-        rest, measure = _in_units_of(whole, rest, measure)
+        rest, measure = _in_units_of(whole, part, rest, measure)
     return _record(followed(rest, measure), rest)
 
 
@@ -197,14 +198,13 @@ def _record(found: Followed, rest: AtRest) -> PathOfPart:
 
 
 def _at_rest(
-    joints: ElasticJoints, scale: float, settings: PathSettings, gaps: FloatArray, part: MovingPart | None
+    joints: ElasticJoints, scale: float, settings: PathSettings, gaps: FloatArray, part: ChosenPart | None
 ) -> AtRest:
     """Under the dead load."""
-    points, program = None if part is None else part.points, joints.program
-    gaps = gaps if points is None else gaps[points]
-    if program.settles or not np.any(program.dead_load):  # the live load counts
-        return AtRest(joints, gravity_step(joints, mean_live_load(program, scale), gaps), settings, points)
-    return AtRest(joints, _dead_load_alone(joints.without_live_load, gaps), settings, points)
+    program, gaps = joints.program, gaps if part is None else gaps[part.points]
+    if program.facts.settles or not np.any(program.dead_load):  # the live load counts
+        return AtRest(joints, gravity_step(joints, mean_live_load(program, scale), gaps), settings, part)
+    return AtRest(joints, _dead_load_alone(joints.without_live_load, gaps), settings, part)
 
 
 @shared("dead load at rest")
@@ -221,12 +221,12 @@ def _ends_at_rest(rest: AtRest, program: Program, associative: float | None) -> 
         return Stop.DOES_NOT_STAND
     if not np.any(program.live_load):
         return Stop.UNLOADED
-    if associative is not None and not program.settles and associative <= NEGLIGIBLE * program.own_unit:
+    if associative is not None and not program.facts.settles and associative <= NEGLIGIBLE * program.own_unit:
         return Stop.AT_ONCE
     return None
 
 
-def _of_moving(part: MovingPart, whole: ElasticJoints, interfaces: Interfaces) -> ElasticJoints:
+def _of_moving(part: ChosenPart, whole: ElasticJoints, interfaces: Interfaces) -> ElasticJoints:
     """Joints of what moves, as stiff as in the whole."""
     points = part.points
     ratio = float(whole.shear[0] / whole.normal[0])
@@ -234,10 +234,10 @@ def _of_moving(part: MovingPart, whole: ElasticJoints, interfaces: Interfaces) -
     return ElasticJoints.of(part.program, whole.normal[points], ratio, whole.dilatancy[points], rows)
 
 
-def _in_units_of(whole: ElasticJoints, rest: AtRest, own: Measure) -> tuple[AtRest, Measure]:
+def _in_units_of(whole: ElasticJoints, part: ChosenPart, rest: AtRest, own: Measure) -> tuple[AtRest, Measure]:
     """What moves, measured by displacements of the whole."""
     pressed: BoolArray = np.ones(whole.program.n_points, dtype=np.bool_)
-    pressed[rest.points] = rest.pressed
+    pressed[part.points] = rest.pressed
     unit = float(whole.program.live_load @ elastic_motion(whole, pressed)) * own.load_factor
     settings, (share, _) = rest.settings, rest.settings.smoothed
     first = settings.first * min(1.0, 2.0 * own.displacement / unit)

@@ -12,10 +12,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from mbla.solution.law.elastic_joints import ElasticJoints, Memory, StepState, within
+from mbla.solution.law.elastic_joints import ElasticJoints, Memory, StepState, smoothed_margin, within
 from mbla.solution.law.exact_law import misfit
 from mbla.solution.law.joint_equations import JointStep, residual_of
 from mbla.solution.law.joint_step import direction_of, length_of
+from mbla.solution.law.newton import by_newton
 
 OF_FLOOR = 0.3
 """Least product N y at the beginning of a step, over the one wanted."""
@@ -64,6 +65,20 @@ def with_openings(step: JointStep, state: StepState, sigma: float) -> StepState:
     return replace(state, opening=np.maximum(opening, floor), interfaces=interfaces)
 
 
+def at_rest_of(step: JointStep, state: StepState, sigma: float) -> StepState:
+    """The state with the normal forces that joints at rest have with products: (N − N̄) N = σ k_N h, and as much below
+    what crushes them.
+    """
+    joints, limits = step.joints, step.joints.program.limits
+    trial, product = step.memory.normal, sigma / step.normal_compliance
+    normal = smoothed_margin(trial + limits.tension, product) - limits.tension
+    at = joints.crushable
+    strength, least = limits.compression[at], -limits.tension[at]
+    below = np.minimum(normal[at], strength - smoothed_margin(strength - trial[at], product[at]))
+    normal[at] = np.where(below > least, below, 0.5 * (strength + least))
+    return replace(state, normal=normal)
+
+
 def centred(joints: ElasticJoints, state: StepState, sigma: float, share: float) -> StepState:
     """On the central path for the present normal forces and shear, the latter within a share of its limit."""
     limit = joints.limit(state.normal)
@@ -90,6 +105,9 @@ EXACT, EXACT_OF_LAWS, STEPS = 1e-6, 3e-5, 80
 """Misfit of the law with which the step is solved; the same where interfaces have a law of their own, with which the
 load factor of a dome is at rest to six digits; and directions at most."""
 
+NEWTON, ROUNDING = 8, 1e-11
+"""Iterations of Newton's method at most, and force without balance, in mean loads of a block, with which it ends."""
+
 BLOCKED, AGAIN = 0.05, (1e3, 10.0, 1e5)
 """Reach of a direction below which, twice running, the step starts again from the central path, and the products there
 over those of the path, in turn."""
@@ -101,7 +119,9 @@ def solved_peak(
     enough: Callable[[PeakStep], bool] = lambda peak: peak.is_solved,
     good: Callable[[PeakStep], bool] = lambda peak: False,
 ) -> tuple[PeakStep, int]:
-    """The step of the peak from its history with ever smaller products, until the law holds; factorisations spent.
+    """The step of the peak from its history, by Newton's method, or with ever smaller products until the law holds.
+
+    Returned with the factorisations spent.
 
     The state with the least misfit that was met, which says how far it came.
 
@@ -109,9 +129,11 @@ def solved_peak(
     enough : whether a state is taken, one that is solved unless given
     good   : whether one is taken where the way to such a state is blocked; else it begins anew
     """
-    step, joints, again, blocked, spent = peak.step, peak.step.joints, list(AGAIN), 0, 0
+    step, joints, again, blocked = peak.step, peak.step.joints, list(AGAIN), 0
+    best, spent = _by_newton(replace(peak, misfit=misfit(step, peak.state, force)), force)
+    if enough(best):
+        return best, spent
     sigma, state = peak.sigma, with_openings(peak.step, peak.state, peak.sigma)
-    best = replace(peak, misfit=misfit(step, peak.state, force))
     while not enough(best) and spent < STEPS:
         found = direction_of(step, state, residual_of(step, state), sigma)
         spent += 1
@@ -129,4 +151,17 @@ def solved_peak(
         if blocked >= 2:
             sigma, blocked = again.pop(0) * peak.sigma, 0
             state = centred(joints, state, sigma, 0.95)
+    if not best.is_solved:
+        best, more = _by_newton(best, force)
+        spent += more
     return best, spent
+
+
+def _by_newton(peak: PeakStep, force: float) -> tuple[PeakStep, int]:
+    """The step solved by Newton's method from its state, as given where that comes to nothing; factorisations."""
+    if peak.step.joints.laws or peak.misfit <= ROUNDING:
+        return peak, 0
+    found = by_newton(peak.step, peak.state.u, peak.state.factor, most=NEWTON, balanced=ROUNDING)
+    state = found.state_of(peak.step)
+    there = replace(peak, state=state, misfit=misfit(peak.step, state, force))
+    return (there if there.misfit < min(peak.misfit, EXACT) else peak), found.iterations

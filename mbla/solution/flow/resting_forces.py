@@ -6,6 +6,7 @@ import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray
 from mbla.program.program import Program
+from mbla.program.reductions.restrict import ChosenPart
 from mbla.program.stiffness_shares import shares_of
 from mbla.solution.cone_solvers.cone_solution import ConeSolution, Log
 from mbla.solution.flow.gravity_step import gravity_step
@@ -32,12 +33,12 @@ def resting_forces(program: Program, interfaces: Interfaces, settings: SolverSet
     return None if isinstance(carried, ConeSolution) else carried
 
 
-def rows_not_carried(program: Program, interfaces: Interfaces) -> BoolArray | None:
-    """Rows of the blocks that elastic joints do not carry, of the program that this is a part of, (n_rows,).
+def rows_not_carried(part: ChosenPart, interfaces: Interfaces) -> BoolArray | None:
+    """Rows of the blocks of a part that elastic joints do not carry, in the whole, (n_rows of the whole,).
 
     None where they carry all, or where that was not decided.
     """
-    assert program.reduction is not None
+    program = part.program
     joints = ElasticJoints.of(program, shares_of(program), RATIOS[0], interfaces=interfaces.rows_of(program))
     at_rest = gravity_step(joints)
     if not at_rest.settled or at_rest.carried:
@@ -45,4 +46,4 @@ def rows_not_carried(program: Program, interfaces: Interfaces) -> BoolArray | No
     of_block = np.abs(joints.unbalanced(at_rest.state)[: len(program.dead_load)])
     of_block = of_block.reshape(-1, 3 if program.components == 2 else 6).max(axis=1)
     left = np.repeat(of_block > LEFT * of_block.max(), len(program.dead_load) // len(of_block))
-    return np.asarray((abs(program.reduction.velocities) @ left) > 0.0)
+    return np.asarray(part.lifted(left) > 0.0)

@@ -11,9 +11,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from mbla.arrays import BoolArray, FloatArray, IntArray
+from mbla.arrays import BoolArray, FloatArray
 from mbla.program.program import Program
-from mbla.program.reductions.restrict import chosen_limits, restricted, selection
+from mbla.program.reductions.restrict import ChosenPart, selection
 from mbla.solution.cone_solvers.cone_solution import ConeSolution, Log
 from mbla.solution.flow.followed import AtRest
 from mbla.solution.flow.path_of_part import WHAT_MOVES, Extent, PathOfPart
@@ -69,11 +69,11 @@ def state_of_path(
     forces, history, velocities = _of_followed(program, peak, rest)
     motions, history = _of_interfaces(peak, history)
     if found.lets_rest:
-        beside, resting = _what_rests(program, peak, rest, forces)
-        carried = resting_forces(beside, interfaces, settings, log)
+        beside = _what_rests(program, peak, rest, forces)
+        carried = resting_forces(beside.program, interfaces, settings, log)
         if carried is None:
             return None
-        forces[resting] = history.remembered[resting] = carried
+        forces[beside.points] = history.remembered[beside.points] = carried
     return LawState(forces, velocities, rest.begins + peak.state.factor, peak.misfit, motions, history)
 
 
@@ -82,8 +82,7 @@ def _not_carried(program: Program, found: PathOfPart, interfaces: Interfaces) ->
     if found.path is None or found.path.peak is None or found.rest is None:
         return None
     forces, _, _ = _of_followed(program, found.path.peak, found.rest)
-    beside, _ = _what_rests(program, found.path.peak, found.rest, forces)
-    return rows_not_carried(beside, interfaces)
+    return rows_not_carried(_what_rests(program, found.path.peak, found.rest, forces), interfaces)
 
 
 def state_at_once(
@@ -105,7 +104,7 @@ def state_at_once(
 def _of_followed(program: Program, peak: PeakStep, rest: AtRest) -> tuple[FloatArray, StepHistory, FloatArray]:
     """Forces, history and velocities of all, those of what rests left at nothing and as stiff as the mean."""
     step, state, joints = peak.step, peak.state, peak.step.joints
-    points = np.arange(program.n_points) if rest.points is None else rest.points
+    points = np.arange(program.n_points) if rest.part is None else rest.part.points
     shape = program.n_points, program.components
     forces, remembered = np.zeros(shape), np.zeros(shape)
     forces[points] = state.forces
@@ -113,10 +112,8 @@ def _of_followed(program: Program, peak: PeakStep, rest: AtRest) -> tuple[FloatA
     normal, shear = (np.full(program.n_points, values.mean() * step.length) for values in (joints.normal, joints.shear))
     normal[points], shear[points] = joints.normal * step.length, joints.shear * step.length
     velocities = state.u[: len(program.dead_load)]  # those of interfaces are behind
-    if rest.points is not None:
-        assert joints.program.reduction is not None
-        of_part = joints.program.reduction.velocities
-        velocities = np.asarray(of_part @ state.u[: of_part.shape[1]])
+    if rest.part is not None:
+        velocities = rest.part.lifted(state.u[: rest.part.velocities.shape[1]])
     return forces, StepHistory(remembered, normal, shear), velocities
 
 
@@ -138,18 +135,13 @@ def _of_interfaces(peak: PeakStep, history: StepHistory) -> tuple[FloatArray | N
     return motions, history
 
 
-def _what_rests(program: Program, peak: PeakStep, rest: AtRest, forces: FloatArray) -> tuple[Program, IntArray]:
-    """Points that were not followed, under loads and what the forces of others, (n_points, components), do to them.
-
-    And their numbers in the program.
-    """
-    assert rest.points is not None
-    factor, resting = rest.begins + peak.state.factor, np.setdiff1d(np.arange(program.n_points), rest.points)
+def _what_rests(program: Program, peak: PeakStep, rest: AtRest, forces: FloatArray) -> ChosenPart:
+    """Points that were not followed, under loads and what the forces of others, (n_points, components), do to them."""
+    assert rest.part is not None
+    factor, resting = rest.begins + peak.state.factor, np.setdiff1d(np.arange(program.n_points), rest.part.points)
     passed = program.equilibrium_matrix @ forces.ravel() + program.dead_load + factor * program.live_load
     chosen = selection(resting, program.n_points, program.components)
     size = 3 if program.components == 2 else 6
     sums = np.asarray(abs(program.equilibrium_matrix @ chosen).sum(axis=1))
     touched: BoolArray = np.asarray(sums.reshape(-1, size).any(axis=1), dtype=np.bool_)
-    ways = selection(np.flatnonzero(touched), len(touched), size)
-    loads = replace(program, dead_load=passed, live_load=np.zeros_like(passed))
-    return restricted(loads, ways, chosen, chosen_limits(program.limits, resting)), resting
+    return ChosenPart.of(replace(program, dead_load=passed, live_load=np.zeros_like(passed)), touched, resting)

@@ -91,8 +91,8 @@ class ElasticJoints:
     @property
     def without_live_load(self) -> ElasticJoints:
         """The same joints under the dead load alone, as any load case has them."""
-        matrix = replace(self.matrix, program=_without_live_load(self.matrix.program))
-        return replace(self, program=_without_live_load(self.program), matrix=matrix)
+        matrix = replace(self.matrix, program=self.matrix.program.without_live_load())
+        return replace(self, program=self.program.without_live_load(), matrix=matrix)
 
     @cached_property
     def friction(self) -> FloatArray:
@@ -165,12 +165,6 @@ class ElasticJoints:
         program = self.program
         carried = self.carried(state.normal, state.shear, [one.resultants for one in state.interfaces])
         return carried + program.dead_load + state.factor * program.live_load
-
-
-def _without_live_load(program: Program) -> Program:
-    scaling, before = replace(program.scaling, live=1.0), program.reduction
-    before = None if before is None else replace(before, full=_without_live_load(before.full))
-    return replace(program, live_load=np.zeros_like(program.live_load), scaling=scaling, reduction=before)
 
 
 @dataclass(frozen=True)

@@ -18,8 +18,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from mbla.assembly.assembly import Assembly
+from mbla.assembly.lift import motions_of_bodies
 from mbla.contacts.contacts import Contacts
-from mbla.contacts.glue import solids_of
 from mbla.deck.sections.analysis import AnalysisSection
 from mbla.errors import Message
 from mbla.model import Model
@@ -56,27 +57,29 @@ class _Try:
     known: float = 0.0
 
 
-def shrunk(contacts: Contacts, size: float) -> Contacts:
+def shrunk(assembly: Assembly, size: float) -> Assembly:
+    """The assembly with joints of a size."""
+    return replace(assembly, contacts=_shrunk(assembly.contacts, size))
+
+
+def _shrunk(contacts: Contacts, size: float) -> Contacts:
     """The contacts with every point moved towards the centroid of its interface; areas stay."""
     middle = contacts.centroids[contacts.interface_of_point]
     return replace(contacts, points=middle + size * (contacts.points - middle))
 
 
 def with_geometric_safety(
-    model: Model, contacts: Contacts, load_case: LoadCase, solution: Solution, analysis: AnalysisSection, log: Log
+    assembly: Assembly, load_case: LoadCase, solution: Solution, analysis: AnalysisSection, log: Log
 ) -> Solution:
-    """The solution with the factor of its dead load, verified, or with a remark on why there is none.
-
-    model : as it may move under the load case
-    """
-    against = why_no_geometric_safety(model, contacts, load_case, analysis)
-    found = None if against else geometric_safety(Structure(model, contacts, load_case), analysis, log)
+    """The solution with the factor of its dead load, verified, or with a remark on why there is none."""
+    against = why_no_geometric_safety(assembly.model, assembly.contacts, load_case, analysis)
+    found = None if against else geometric_safety(Structure(assembly, load_case), analysis, log)
     if found is None:
         why = (
             against or "forces that carry the dead load are found at no size of the joints, or a wedge holds it at any"
         )
         return replace(solution, remarks=(*solution.remarks, no_geometric_safety(why)))
-    verified = proved(model, contacts, load_case, found)
+    verified = proved(assembly, load_case, found)
     return replace(solution, geometric_safety=replace(found, verified=verified))
 
 
@@ -104,7 +107,7 @@ def geometric_safety(structure: Structure, analysis: AnalysisSection, log: Log |
 
     def at(factor: float) -> _Try:
         nonlocal solves
-        found = joint_pressure(replace(structure, contacts=shrunk(structure.contacts, 1.0 / factor)), analysis, log)
+        found = joint_pressure(replace(structure, assembly=shrunk(structure.assembly, 1.0 / factor)), analysis, log)
         solves += found.solves
         return _Try(factor, found.value, _slope(structure, found) / -(factor**2), found)
 
@@ -150,7 +153,7 @@ def _slope(structure: Structure, found: JointPressure) -> float:
     if mechanics is None:
         return np.nan
     model, contacts, motion = structure.model, structure.contacts, mechanics.mechanism
-    whole, none = (contact_velocities(model, shrunk(contacts, size), motion) for size in (1.0, 0.0))
+    whole, none = (contact_velocities(model, _shrunk(contacts, size), motion) for size in (1.0, 0.0))
     return -float((mechanics.contact_forces * (whole - none)).sum())
 
 
@@ -171,7 +174,7 @@ def _result(ends: tuple[_Try, ...], solves: int) -> GeometricSafety | None:
     )
 
 
-def proved(model: Model, contacts: Contacts, load_case: LoadCase, safety: GeometricSafety) -> bool:
+def proved(assembly: Assembly, load_case: LoadCase, safety: GeometricSafety) -> bool:
     """Whether forces and mechanisms prove that the dead load stands at one end and falls at the other, next to it.
 
     The load factors are to be those of the forces and mechanisms too; without an end that falls, the one that stands is
@@ -182,17 +185,17 @@ def proved(model: Model, contacts: Contacts, load_case: LoadCase, safety: Geomet
         return False
     bounds = []
     for row, size in enumerate(safety.sizes):
-        whole = Structure(model, shrunk(contacts, float(size)), load_case)
+        whole = Structure(shrunk(assembly, float(size)), load_case)
         posed = pressed_by(whole, float(safety.pressed[row]), unit_of_pressure(whole))
-        solids = solids_of(posed.model, posed.contacts)
+        bodies = posed.assembly.glued(load_case)
         state = Mechanics(
             load_factor=float(safety.load_factors[row]),
             contact_forces=safety.forces[row],
             contact_velocities=np.zeros_like(safety.forces[row]),
-            mechanism=solids.solid_motions(safety.mechanisms[row]),
-            modes=np.zeros(len(contacts.points), dtype=np.int64),
+            mechanism=motions_of_bodies(bodies, safety.mechanisms[row]),
+            modes=np.zeros(len(assembly.contacts.points), dtype=np.int64),
         )
-        case = Case(solids.model, solids.contacts, solids.load_case(posed.load_case))
+        case = Case(bodies.model, bodies.contacts, bodies.load_case(posed.load_case))
         bounds.append(associative_bounds(case, state))
     for own, (least, most) in zip(safety.load_factors, bounds, strict=True):
         room = TOLERANCE * abs(own)

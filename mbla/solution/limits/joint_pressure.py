@@ -15,8 +15,6 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from mbla.contacts.glue import solids_of
-from mbla.contacts.tied import tied
 from mbla.deck.sections.analysis import AnalysisSection
 from mbla.program.build import build_program
 from mbla.solution.cone_solvers.cone_solution import Log
@@ -76,9 +74,9 @@ def joint_pressure(structure: Structure, analysis: AnalysisSection, log: Log | N
     pressed, solves = PRESSED, 0
     while True:
         posed = pressed_by(structure, pressed, unit)
-        program = build_program(tied(solids_of(posed.model, posed.contacts)), posed.load_case, own)
+        program = build_program(posed.assembly, posed.load_case, own)
         solution = solve(program, settings, log)
-        checks = verify(posed.model, posed.contacts, posed.load_case, solution)
+        checks = verify(posed.assembly, posed.load_case, solution)
         status, solves = verified_status(solution, checks), solves + 1
         if status is not Status.NO_EQUILIBRIUM or pressed >= MOST_PRESSED:
             return JointPressure(posed, solution, checks, status, pressed, unit, solves)

@@ -132,7 +132,7 @@ def _at_limit(program: Program, found: PathOfPart, state: LawState, interfaces: 
 
     In shares of the dead load. Without a path, what interfaces crush as the structure moves at once is not known.
     """
-    if interfaces is NONE or program.settles:
+    if interfaces is NONE or program.facts.settles:
         return False
     return found.stop is Stop.AT_ONCE or state.residual * program.dead_over_live > AT_MOST * abs(state.load_factor)
 

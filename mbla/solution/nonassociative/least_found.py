@@ -38,7 +38,7 @@ def looks_lower(program: Program, settings: SolverSettings, interfaces: Interfac
     interfaces : that have a law of their own
     """
     in_question = program.components == 2 or settings.analysis.search is not None
-    by_points = interfaces is NONE and not program.settles
+    by_points = interfaces is NONE and not program.facts.settles
     return settings.by_elastic_path and settings.search > 0.0 and in_question and by_points
 
 

@@ -46,11 +46,11 @@ def locking_forces(parts: Sequence[Program], settings: SolverSettings, log: Log)
     loaded = [program for program in parts if np.any(program.live_load)]
     for share in FRICTIONS:
         found = [_least_forces(program, share, settings, log) for program in loaded]
-        forces = [_lifted(program, x) for program, x in zip(loaded, found, strict=True) if x is not None]
+        forces = [program.lift.contact_forces(x) for program, x in zip(loaded, found, strict=True) if x is not None]
         if not forces or len(forces) < len(loaded):
             continue
-        whole = _root(loaded[0])
-        exact = _in_balance(guided_program(whole, whole.allowed), np.sum(forces, axis=0))
+        whole = loaded[0].full
+        exact = _in_balance(guided_program(whole, whole.facts.allowed), np.sum(forces, axis=0))
         if exact is not None:
             return whole.scaling.forces(exact) / whole.scaling.live
     return None
@@ -97,20 +97,6 @@ def _without_points(program: Program, kept: FloatArray) -> Program:
     columns = np.flatnonzero(np.repeat(kept, program.components))
     limits = YieldLimits(*(values[kept] for values in vars(program.limits).values()))
     return replace(program, equilibrium_matrix=program.equilibrium_matrix[:, columns], limits=limits)
-
-
-def _lifted(program: Program, forces: FloatArray) -> FloatArray:
-    """Forces of a program in that of the whole model, non-dimensional, (n_points, 3)."""
-    while program.reduction is not None:
-        forces = (program.reduction.forces @ forces.ravel()).reshape(-1, program.reduction.full.components)
-        program = program.reduction.full
-    return forces
-
-
-def _root(program: Program) -> Program:
-    while program.reduction is not None:
-        program = program.reduction.full
-    return program
 
 
 def lasting_limits(limits: YieldLimits) -> YieldLimits:

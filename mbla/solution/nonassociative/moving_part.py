@@ -8,14 +8,12 @@ three at 1e-6.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 import scipy.sparse as sp
 
-from mbla.arrays import BoolArray, FloatArray, IntArray
+from mbla.arrays import BoolArray, FloatArray
 from mbla.program.program import Program
-from mbla.program.reductions.restrict import chosen_limits, restricted, selection
+from mbla.program.reductions.restrict import ChosenPart
 
 RINGS = 6
 """Rings of blocks around the moving ones."""
@@ -27,19 +25,6 @@ FEW_POINTS, WORTHWHILE = 3000, 0.6
 """Contact points up to which no part is worth a program of its own, and share of them from which it is not."""
 
 
-@dataclass(frozen=True)
-class MovingPart:
-    """The program of what moves; ``points`` are those of the full program, (n,), that have a force in it."""
-
-    program: Program
-    points: IntArray
-
-    def lifted(self, velocities: FloatArray) -> FloatArray:
-        """Velocities of the full program, (n_rows,), from those of the part."""
-        assert self.program.reduction is not None
-        return np.asarray(self.program.reduction.velocities @ velocities)
-
-
 def moving_part(
     program: Program,
     velocities: FloatArray,
@@ -47,7 +32,7 @@ def moving_part(
     rings: int | None = None,
     few: int | None = None,
     worthwhile: float | None = None,
-) -> MovingPart | None:
+) -> ChosenPart | None:
     """The part that velocities, (n_rows,), move; None where that is hardly smaller, or blocks are guided.
 
     rings, few, worthwhile : in the place of ``RINGS``, ``FEW_POINTS`` and ``WORTHWHILE``
@@ -66,10 +51,7 @@ def moving_part(
         points = _any(across @ np.repeat(moves, size), program.components)
     if points.sum() > worthwhile * len(points):
         return None
-    blocks, chosen = np.flatnonzero(moves), np.flatnonzero(points)
-    ways = selection(blocks, len(moves), size)
-    forces = selection(chosen, program.n_points, program.components)
-    return MovingPart(restricted(program, ways, forces, chosen_limits(program.limits, chosen)), chosen)
+    return ChosenPart.of(program, moves, np.flatnonzero(points))
 
 
 def _any(sums: FloatArray, size: int) -> BoolArray:

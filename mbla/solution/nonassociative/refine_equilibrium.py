@@ -6,7 +6,7 @@ it falls. Such a state is taken further, by
 
 1. its own forces, repaired to balance every block: a light block between two of 1e6 times its weight, out of balance by
    1.6e-5 of what it carries, comes to 1e-16;
-2. steps of the exact law (``joint_law``) from its own forces, to the rounding of the forces instead of
+2. steps of the exact law (:mod:`mbla.solution.law.newton`) from its own forces, to the rounding of the forces instead of
    that of the mean load. Measured on a block of weight 1 that is pushed past one of 1e8: 0.399956 becomes 0.4;
 3. the associative state, where forces and mechanism fit this law as they are: nothing slides in it that would have to
    lift. On a light block upon a heavy one, 1e8 apart, the steps break down, and blocks rock at the associative factor.
@@ -27,9 +27,10 @@ from mbla.program.program import Program
 from mbla.solution.associative.bounds import ZERO_FACTOR
 from mbla.solution.associative.repair import repaired_forces
 from mbla.solution.associative.solve_associative import AssociativeResult
-from mbla.solution.linear_algebra.stiffness import Stiffness, stiffness_of
+from mbla.solution.law.elastic_joints import ElasticJoints, Memory, together
+from mbla.solution.law.joint_equations import JointStep
+from mbla.solution.law.newton import by_newton
 from mbla.solution.nonassociative.imbalance import misfit
-from mbla.solution.nonassociative.joint_law import LawProblem, exact_step
 from mbla.solution.nonassociative.law_state import LawState, SequenceResult, law_state
 from mbla.solution.solution import Status
 from mbla.solution.thresholds import EXACT_RESIDUAL, SOLVED_RESIDUAL
@@ -51,8 +52,9 @@ leave more than there was: of what the convex programs end with the residual is 
 with steps it is as small as the residual.
 """
 
-STEP, MOST_STEPS, FACTORIZATIONS = 0.03, 3, 12
-"""ρ ‖x‖² of a step in the unit of the part, steps, and factorisations of each."""
+STEP, MOST_STEPS, FACTORIZATIONS, SHIFT = 0.03, 3, 12, 1e-12
+"""‖x‖² over the length of a step in the unit of the part, steps, factorisations of each, and the share of the stiffness
+of all joints sticking that is added in them."""
 
 
 def sharpened(
@@ -83,18 +85,19 @@ def sharpened(
     return replace(sequence, status=Status.SOLVED, state=best, reason="", remarks=(), tolerance_requested=None)
 
 
-def stepped(stiffness: Stiffness, slope: FloatArray, state: LawState, most: int) -> tuple[LawState, int]:
+def stepped(joints: ElasticJoints, state: LawState, most: int) -> tuple[LawState, int]:
     """The state after one step of the exact law to rounding, from the forces and near the motion of another.
 
-    slope : (n_points,) tangent of the dilatancy angle
+    joints : of a stiffness of 1 each
 
     Returns that state, and the factorisations that the step took, ``most`` at most.
     """
-    program = stiffness.program
-    rho = STEP * program.own_unit / max(float((state.forces**2).sum()), np.finfo(float).tiny)
-    law = LawProblem(stiffness, slope, state.forces, rho)
-    step = exact_step(law, state.velocities, state.load_factor, most, balanced=0.0)
-    return law_state(program, slope, step.forces, step.velocities, step.load_factor), step.factorizations
+    program = joints.program
+    length = max(float((state.forces**2).sum()), np.finfo(float).tiny) / (STEP * program.own_unit)
+    step = JointStep(joints, Memory(state.forces[:, 0], state.forces[:, 1:].T), length)
+    found = by_newton(step, state.velocities, state.load_factor, most=most, balanced=0.0, shift=SHIFT)
+    forces = together(found.forces.normal, found.forces.shear)
+    return law_state(program, joints.dilatancy, forces, found.u, found.factor), found.iterations
 
 
 def _candidates(
@@ -108,10 +111,10 @@ def _candidates(
     repaired = repaired_forces(program, state.forces, state.load_factor)
     if repaired is not None:
         yield law_state(program, slope, repaired[0], state.velocities, repaired[1])
-    stiffness, slopes = stiffness_of(program), np.broadcast_to(slope, program.n_points)
+    joints = ElasticJoints.of(program, np.ones(program.n_points), 1.0, np.broadcast_to(slope, program.n_points))
     factor, least, before = state.load_factor, misfit(program, state), np.inf
     for _ in range(MOST_STEPS):
-        state, _ = stepped(stiffness, slopes, state, FACTORIZATIONS)
+        state, _ = stepped(joints, state, FACTORIZATIONS)
         found = misfit(program, state)
         least = min(least, found)
         yield state

@@ -70,7 +70,7 @@ NEAR_BEST = 10.0
 def is_needless(program: Program, state: LawState, most: float) -> bool:
     """Whether the mechanism of a state needs no live load, though the associative load factor ``most`` is greater."""
     needless = NEEDLESS * program.moved_over_live(state.velocities)
-    return state.load_factor <= needless < most and not program.settles
+    return state.load_factor <= needless < most and not program.facts.settles
 
 
 @dataclass

@@ -16,6 +16,7 @@ from itertools import pairwise
 import numpy as np
 
 from mbla.arrays import FloatArray
+from mbla.assembly.assembly import Assembly
 from mbla.contacts.contacts import Contacts
 from mbla.deck.sections.contacts import ContactsSection
 from mbla.errors import Message
@@ -119,8 +120,7 @@ def no_pushover(against: str) -> Message:
 
 
 def pushed(
-    model: Model,
-    contacts: Contacts,
+    assembly: Assembly,
     section: ContactsSection,
     case: LoadCase,
     solution: Solution,
@@ -131,15 +131,15 @@ def pushed(
 ) -> Solution:
     """The solution of a load case with its capacity curve, or with a remark that says why there is none.
 
-    model : as it may move under the load case
-    tell  : told how to make the solution with the rows that are done by then
+    tell : told how to make the solution with the rows that are done by then
     """
-    against = why_not_pushed(model, contacts, case, solution, solved)
+    model = assembly.model.of_case(case)
+    against = why_not_pushed(model, assembly.contacts, case, solution, solved)
     asked, first = case.pushover, solution.mechanics
     if against or first is None or asked is None:
         return replace(solution, remarks=(*solution.remarks, no_pushover(against)))
     first = replace(start_of(solution), load_factor=factor_at_start(case, solution))
-    structure = PushedStructure.of(model, contacts, section, case, settings.analysis.flow_rule)
+    structure = PushedStructure.of(assembly, section, case, settings.analysis.flow_rule)
     control = Control.of(model, case, first.mechanism)
     watch = _watched(log)
     ends = asked.until, asked.until_load_factor, asked.steps
@@ -155,8 +155,8 @@ def pushed(
             curve_end_error=errors.displacement,
             curve_last_error=errors.load_factor,
         )
-        found = replace(found, curve=curve_of(model, contacts, section, case, found))
-        return replace(found, remarks=(*solution.remarks, *pushover_remarks(model, contacts, case, found)))
+        found = replace(found, curve=curve_of(assembly, case, found))
+        return replace(found, remarks=(*solution.remarks, *pushover_remarks(model, case, found)))
 
     tell(lambda: with_curve(done, StepErrors.unknown(len(done)), CurveEnd.STOPPED))
     end = _followed(way, done)
@@ -206,7 +206,6 @@ def _recorded(row: Row) -> RecordedRow:
     at_zero[1:] += joints.shear_stiffness * row.history.slips
     laws = list(structure.model.joints)
     of_contact = np.array([laws.index(name) for name in contacts.joint_names], dtype=np.int64)
-    assert joints.full.areas is not None  # of the program of all points
     always = np.zeros((len(row.forces), 3))  # N is what the force of a tie differs from it
     if n_ties and joints.contacts.ties is not None:
         always[-n_ties:, 0] = joints.contacts.ties.offsets
@@ -216,7 +215,7 @@ def _recorded(row: Row) -> RecordedRow:
         arms=_with_ties(points.arms.transpose(1, 0, 2), n_ties, 0.0),
         frames=_with_ties(points.frames, n_ties, 0.0),
         laws=np.append(of_contact[contacts.joints][contacts.interface_of_point], joints.ties),
-        areas=np.column_stack([np.append(contacts.point_areas, np.zeros(n_ties)), joints.full.areas]),
+        areas=np.column_stack([np.append(contacts.point_areas, np.zeros(n_ties)), joints.full.facts.areas]),
         history=joints.forces(at_zero) + always,
         forces=row.forces + always,
     )
@@ -239,7 +238,7 @@ def _step_remarks(case: LoadCase, solution: Solution) -> Iterator[Message]:
         yield Message("pushover-depends-on-step", words)
 
 
-def pushover_remarks(model: Model, contacts: Contacts, case: LoadCase, solution: Solution) -> tuple[Message, ...]:
+def pushover_remarks(model: Model, case: LoadCase, solution: Solution) -> tuple[Message, ...]:
     """What a reader of a capacity curve must know, from its rows and its first mechanism.
 
     model : as it may move under the load case
@@ -274,21 +273,16 @@ def begun_by(case: LoadCase, solution: Solution) -> Solution:
     return replace(solution, pushed=replace(rows, load_factors=factors, shifts=shifts, turns=turns, fallen=fallen))
 
 
-def curve_of(
-    model: Model, contacts: Contacts, section: ContactsSection, case: LoadCase, solution: Solution
-) -> tuple[CurveRow, ...]:
-    """Rows of the curve from poses, points, forces and history on record; row 0 is that of the load factor.
-
-    model : as it may move under the load case
-    """
-    rows = solution.pushed
+def curve_of(assembly: Assembly, case: LoadCase, solution: Solution) -> tuple[CurveRow, ...]:
+    """Rows of the curve from poses, points, forces and history on record; row 0 is that of the load factor."""
+    rows, model = solution.pushed, assembly.model.of_case(case)
     assert rows is not None  # else there is no curve
     control = Control.of(model, case, start_of(solution).mechanism)
-    found = row_residuals(model, contacts, section, case, solution.flow_rule, rows)
+    found = row_residuals(assembly, case, solution.flow_rule, rows)
     poses, factors, start = list(rows.poses), rows.load_factors, "mechanics"
     if solution.least is not None and start_of(solution) is solution.least:
         start = "least"
-    begins = residual_of(model, contacts, case, solution, start)
+    begins = residual_of(assembly, case, solution, start)
     curve = list[CurveRow]()
     motions = [np.zeros((len(model.blocks), 6))]
     for number, pose in enumerate(poses):

@@ -93,7 +93,7 @@ def _without(place: Place, motion: FloatArray, is_over: Callable[[BoolArray], bo
 def _masses(joints: MovedJoints) -> FloatArray:
     """Of the rows of the program, with a moment of inertia of a twelfth of mass times size squared, (n_rows,)."""
     blocks, scaling = joints.model.blocks, joints.full.scaling
-    mass, size = blocks.masses[joints.full.free], blocks.sizes[joints.full.free]
+    mass, size = blocks.masses[joints.full.facts.free], blocks.sizes[joints.full.facts.free]
     every = np.repeat(mass[:, None], 6, axis=1)
     every[:, 3:] *= (size**2)[:, None] / 12.0
     return np.asarray(joints.ways[0].power(2).T @ (every.ravel() * scaling.row**2 * scaling.live))

@@ -13,9 +13,9 @@ import numpy as np
 import scipy.sparse as sp
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
+from mbla.assembly.ties import with_ties
 from mbla.contacts.carried import Placed, Touching
 from mbla.contacts.contacts import Contacts
-from mbla.contacts.tied import tied
 from mbla.model.model import Model
 from mbla.model.pose import Pose
 from mbla.model.ties.ties import Ties
@@ -120,22 +120,19 @@ class MovedJoints:
         rows = np.flatnonzero(~broken)
         left = replace(there, prestress=np.zeros(len(there))).take(rows)
         model = replace(solids.model, fixed=solids.model.fixed | fallen, ties=left, load_cases=())
-        solids = tied(replace(solids, model=model))
+        solids = with_ties(replace(solids, model=model))
         dead, live, _ = structure.loads_at(pose, fallen, 0.0)
         loads = replace(structure.case, dead_load=dead, live_load=live)
-        full = assemble(solids.model, solids.contacts, loads, own=False)
-        if full.guided and full.reduction is not None:
-            full = full.reduction.full  # guides come last
+        full = assemble(solids.model, solids.contacts, loads, own=False).full  # guides come last
         areas = structure.areas_of(touching)
         if old is not None:
             kept = touching.before >= 0
             areas[kept] = old.areas[touching.before[kept]]
         own = rows[:0] if solids.contacts.ties is None else rows[solids.contacts.ties.rows]
         mean = float(areas.mean()) if len(areas) else float(structure.areas.mean())
-        full = replace(full, areas=np.append(areas, np.full(len(own), mean)))
+        full = replace(full, facts=replace(full.facts, areas=np.append(areas, np.full(len(own), mean))))
         reduced = reduced_whole(scene_of(solids.model, solids.contacts, full), SWITCHES, solids.model.mirrors)
-        assert full.areas is not None  # just given
-        stiffness = structure.stiffness * float(full.areas.mean()) * stiffness_through(reduced)
+        stiffness = structure.stiffness * float(full.facts.areas.mean()) * stiffness_through(reduced)
         scaled = stiffness * full.scaling.live / full.scaling.force**2
         length = float(scaled.mean())
         return MovedJoints(
@@ -183,9 +180,9 @@ class MovedJoints:
         row, scaling = self.full.scaling.row, self.full.scaling
         load_factor = scaling.load_factor(factor)
         dead, live, change = self.structure.loads_at(pose, self.fallen, load_factor)
-        every = dead + self._of_ties.fitted(ties, centres), live
+        every = dead + self._of_ties.prestress_load(ties, centres), live
         linear = every[0] + load_factor * (live - change), change
-        loads = [each[self.full.free].ravel() for each in linear]
+        loads = [each[self.full.facts.free].ravel() for each in linear]
         ways = self.ways[0].T
         program = replace(
             self.reduced,
@@ -229,25 +226,14 @@ class MovedJoints:
     @cached_property
     def ways(self) -> tuple[sp.csr_array, sp.csr_array]:
         """U = S q and x = P y through all reductions."""
-        program = self.reduced
-        rows, columns = len(self.full.dead_load), 3 * self.full.n_points
-        ways: tuple[sp.csr_array, sp.csr_array] = (
-            sp.eye_array(rows, format="csr"),
-            sp.eye_array(columns, format="csr"),
-        )
-        chain = []
-        while program.reduction is not None:
-            chain.append(program.reduction)
-            program = program.reduction.full
-        for one in reversed(chain):
-            ways = (sp.csr_array(ways[0] @ one.velocities), sp.csr_array(ways[1] @ one.forces))
-        return ways
+        lift = self.reduced.lift
+        return lift.velocities, lift.forces
 
     @cached_property
     def row_of_solid(self) -> IntArray:
         """Number among the free solids, (n_solids + grounds + 1,); −1 of the others."""
         number = np.full(len(self.model.blocks) + len(self.model.grounds) + 1, -1)
-        number[self.full.free] = np.arange(len(self.full.free))
+        number[self.full.facts.free] = np.arange(len(self.full.facts.free))
         return number
 
     @cached_property

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from mbla.arrays import FloatArray
+from mbla.assembly.lift import motions_of_blocks
 from mbla.model.pose import Pose
 from mbla.model.ties.moved import TieHistory
 from mbla.solution.law.elastic_joints import StepState
@@ -134,5 +135,5 @@ def ties_after(place: Place, pose: Pose, twists: FloatArray) -> TieHistory:
     if not len(model.ties):
         return place.ties
     here = structure.blocks_at(place.pose).moved(model.blocks)
-    motion = structure.solids.block_motions(twists)
+    motion = motions_of_blocks(structure.solids, twists)
     return place.ties.after(here, structure.ties_at(place.pose), motion, structure.ties_at(pose))

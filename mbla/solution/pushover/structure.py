@@ -7,15 +7,16 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
+from mbla.assembly.assembly import Assembly
+from mbla.assembly.rigid_bodies import RigidBodies
 from mbla.contacts.carried import Touching
 from mbla.contacts.contacts import Contacts
-from mbla.contacts.glue import Solids, solids_of
 from mbla.contacts.moved import MovedSearch
 from mbla.deck.sections.contacts import ContactsSection
 from mbla.model.model import LoadCase, Model
 from mbla.model.pose import Pose, moved_case, moved_model
 from mbla.model.ties.moved import moved_ties
-from mbla.model.ties.ties import NO_TIES, Ties
+from mbla.model.ties.ties import Ties
 from mbla.program.reductions.scene import refined
 
 SAG = 1e-6
@@ -28,7 +29,7 @@ class PushedStructure:
 
     model     : as it may move, blocks as built
     case      : on the blocks
-    solids    : as built, without ties
+    solids    : as built; ties are none of their contacts
     search    : of contacts wherever the blocks are
     areas     : (n_pairs,) m² of the solids that touch as built, by ``pairs``, (n_pairs,) numbers of their bodies
     stiffness : of joints, force per volume
@@ -37,7 +38,7 @@ class PushedStructure:
 
     model: Model
     case: LoadCase
-    solids: Solids
+    solids: RigidBodies
     search: MovedSearch
     pairs: IntArray
     areas: FloatArray
@@ -45,12 +46,10 @@ class PushedStructure:
     flow_rule: str
 
     @staticmethod
-    def of(
-        model: Model, contacts: Contacts, section: ContactsSection, case: LoadCase, flow_rule: str
-    ) -> PushedStructure:
+    def of(assembly: Assembly, section: ContactsSection, case: LoadCase, flow_rule: str) -> PushedStructure:
         """From contacts as built."""
+        model, solids = assembly.model.of_case(case), assembly.glued(case)
         case = case if case.tilt is None else replace(case, live_load=case.tilt.across)
-        solids = solids_of(replace(model, ties=NO_TIES), contacts)
         numbers = _numbers(solids.contacts.bodies, _n_bodies(solids.model))
         pairs, place = np.unique(numbers, return_inverse=True)
         areas = np.asarray(np.bincount(place.ravel(), solids.contacts.areas, len(pairs)), dtype=np.float64)
@@ -62,7 +61,7 @@ class PushedStructure:
             model=model,
             case=case,
             solids=solids,
-            search=MovedSearch(model, contacts, section),
+            search=MovedSearch(model, assembly.contacts, section),
             pairs=pairs,
             areas=areas,
             stiffness=weight / (float(areas.mean()) * SAG * size),
@@ -81,13 +80,13 @@ class PushedStructure:
 
     def blocks_at(self, pose: Pose) -> Pose:
         """Poses of the blocks from those of the solids."""
-        if self.solids.solid_of_block is None:
+        if self.solids.body_of_block is None:
             return pose
         turn = pose.rotation[self.solids.label]
         arms = self.solids.arms
         return Pose(pose.shift[self.solids.label] + np.einsum("nij,nj->ni", turn, arms) - arms, turn)
 
-    def solids_at(self, pose: Pose, contacts: Contacts) -> Solids:
+    def solids_at(self, pose: Pose, contacts: Contacts) -> RigidBodies:
         """The solids there with contacts between them, without ties."""
         arms = np.einsum("nij,nj->ni", pose.rotation[self.solids.label], self.solids.arms)
         return replace(self.solids, model=moved_model(self.solids.model, pose), contacts=contacts, arms=arms)

@@ -52,7 +52,7 @@ class TiesAtPose:
         arm = ties.places[self.places] - centres[self.bodies]
         return np.hstack([force, np.cross(arm, force)]).ravel()
 
-    def fitted(self, ties: Ties, centres: FloatArray) -> FloatArray:
+    def prestress_load(self, ties: Ties, centres: FloatArray) -> FloatArray:
         """What ties do with the force that they always have, (n_solids, 6)."""
         own, total = self.contacts.ties, np.zeros((self.structure.n_solids, 6))
         if own is not None and own.offsets.any():

@@ -14,14 +14,13 @@ from typing import TypeAlias
 
 import numpy as np
 
-from mbla.contacts.contacts import Contacts
+from mbla.assembly.assembly import Assembly
 from mbla.deck import Deck
 from mbla.deck.parameter_keys import number_at, path_of_key, unit_of
 from mbla.deck.section import ROUNDING
 from mbla.deck.sections.materials import JointLaw
 from mbla.deck.text.tree import KeyPath
 from mbla.errors import Message
-from mbla.model import Model
 from mbla.model.model import Joint, LoadCase
 from mbla.solution.sensitivity.lagrangian import State, lagrangian, load_power, pressure_on, resistance, state_of
 from mbla.solution.sensitivity.slopes import Side, Slope
@@ -66,18 +65,15 @@ def no_sensitivity(against: str) -> Message:
 
 
 def with_sensitivity(
-    deck: Deck, model: Model, contacts: Contacts, load_case: LoadCase, solution: Solution, checks: Checks
+    deck: Deck, assembly: Assembly, load_case: LoadCase, solution: Solution, checks: Checks
 ) -> Solution:
-    """The solution with the slopes that the deck asks for, or with a remark on why there are none.
-
-    model : as it may move under the load case
-    """
+    """The solution with the slopes that the deck asks for, or with a remark on why there are none."""
     if deck.analysis.sensitivity is False:
         return solution
     against = why_no_sensitivity(load_case, solution, checks)
     if against:
         return replace(solution, remarks=(*solution.remarks, no_sensitivity(against)))
-    return replace(solution, sensitivity=tuple(slopes(deck, Structure(model, contacts, load_case), solution)))
+    return replace(solution, sensitivity=tuple(slopes(deck, Structure(assembly, load_case), solution)))
 
 
 def slope_by(
@@ -167,7 +163,8 @@ def _of_law(deck: Deck, structure: Structure, state: State, law: Joint, path: Ke
     assert value is not None  # the deck was checked for that
     step = 1.0 if field == "friction" else own or pressure_on(structure, state, law)
     joints = structure.model.joints | {law.name: replace(law, **{field: own + step})}
-    more = replace(structure, model=replace(structure.model, joints=joints))
+    stronger = replace(structure.assembly, model=replace(structure.model, joints=joints))
+    more = replace(structure, assembly=stronger)
     slope = (resistance(more, state) - resistance(structure, state)) / step
     if key == "friction_angle":
         slope *= math.radians(1.0) * (1.0 + own**2)

@@ -12,9 +12,8 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from mbla.arrays import FloatArray, IntArray
+from mbla.assembly import Assembly, assembly_of, build_assembly
 from mbla.contacts.contacts import Contacts
-from mbla.contacts.findings import contacts_of
-from mbla.contacts.glue import held_model
 from mbla.deck import Deck, read_deck_text
 from mbla.errors import MblaError
 from mbla.model import Model, build_model
@@ -34,11 +33,20 @@ OFF_GUIDE = 1e-9
 
 @dataclass(frozen=True)
 class Structure:
-    """Model, contacts and loads of one load case."""
+    """An assembly under one load case, in which no support gives way."""
 
-    model: Model
-    contacts: Contacts
+    assembly: Assembly
     load_case: LoadCase
+
+    @property
+    def model(self) -> Model:
+        """Its blocks."""
+        return self.assembly.model
+
+    @property
+    def contacts(self) -> Contacts:
+        """As found."""
+        return self.assembly.contacts
 
     def moved_along(self, motion: FloatArray, centroids: FloatArray) -> FloatArray:
         """The motion of each block, (n_blocks, 6), as a rigid body in space, about the centroids that it has here.
@@ -65,10 +73,10 @@ def structure_with(deck: Deck, text: str, like: Structure, section: str) -> Stru
         if len(model.blocks) != len(like.model.blocks):
             return "number of blocks"
         same = section in WITHOUT_GEOMETRY
-        contacts = like.contacts if same else contacts_of(other, model)
+        assembly = assembly_of(model, like.contacts) if same else build_assembly(other, model)
     except MblaError:
         return "deck that is refused"
-    model = held_model(model, contacts)
+    model = assembly.model
     case = next((case for case in model.load_cases if case.name == name), None)
     if case is None or not np.array_equal(model.fixed, like.model.fixed):
         return "supports" if case is not None else "load case"
@@ -76,8 +84,8 @@ def structure_with(deck: Deck, text: str, like: Structure, section: str) -> Stru
         return "number of ties"
     if not np.array_equal(model.ties.bodies, like.model.ties.bodies):
         return "blocks that ties hold"
-    matched = contacts if same else matched_contacts(contacts, like)
-    return "contacts" if matched is None else Structure(model, matched, case)
+    matched = assembly.contacts if same else matched_contacts(assembly.contacts, like)
+    return "contacts" if matched is None else Structure(replace(assembly, contacts=matched), case)
 
 
 def guides_allow(structure: Structure, motion: FloatArray) -> bool:

@@ -70,7 +70,7 @@ def stress_free_state(program: Program) -> StressFree:
     A support that gives way later is held.
     """
     at_points = replace(program, conditions=None)
-    return _stress_free(at_points if program.settles else at_points.without_live_load())
+    return _stress_free(at_points if program.facts.settles else at_points.without_live_load())
 
 
 @shared("standing")
@@ -122,8 +122,7 @@ def _on_model(program: Program, rest: LawState) -> StandingResult:
 
     With a force of 1 per length of 1 in the deck's units; with joints k times as stiff everything moves 1/k as far.
     """
-    while program.reduction is not None:
-        rest, program = lifted(program, rest), program.reduction.full
+    program, rest = program.full, lifted(program, rest)
     assert rest.history is not None
     scaling = program.scaling
     units = scaling.force * np.broadcast_to(scaling.units, len(rest.history.normal))
@@ -179,9 +178,7 @@ def standing_without_equilibrium(program: Program, certificate: FloatArray) -> S
 
     certificate : velocities of the blocks, others behind. The block named is the one whose load does most of that work.
     """
-    motion = motion_of(program, certificate[: len(program.dead_load)])
-    while program.reduction is not None:
-        program = program.reduction.full
+    motion, program = motion_of(program, certificate[: len(program.dead_load)]), program.full
     load = (program.dead_load / program.scaling.row).reshape(-1, 6)
-    work = (load * motion[program.free]).sum(axis=1)
-    return StandingResult(Standing.NO, int(program.free[work.argmax()]), NO)
+    work = (load * motion[program.facts.free]).sum(axis=1)
+    return StandingResult(Standing.NO, int(program.facts.free[work.argmax()]), NO)

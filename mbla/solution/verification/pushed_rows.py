@@ -16,13 +16,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray
-from mbla.contacts.contacts import Contacts
-from mbla.contacts.glue import Solids, solids_of
-from mbla.deck.sections.contacts import ContactsSection
+from mbla.assembly.assembly import Assembly
+from mbla.assembly.rigid_bodies import RigidBodies
 from mbla.model.model import LoadCase, Model
 from mbla.model.pose import Pose, moved_case, moved_model
 from mbla.model.ties.moved import moved_ties, tie_lengths
-from mbla.model.ties.ties import NO_TIES, OUTSIDE, Ties
+from mbla.model.ties.ties import OUTSIDE, Ties
 from mbla.solution.pushover.record import PushedRows, RowPoints
 from mbla.solution.verification.points_on_bodies import distances_from_bodies
 from mbla.solution.verification.statics import left_to_balance
@@ -60,7 +59,7 @@ class _Moved:
     rotation: FloatArray
 
     @staticmethod
-    def of(solids: Solids, pose: Pose) -> _Moved:
+    def of(solids: RigidBodies, pose: Pose) -> _Moved:
         first = solids.first_blocks
         turn = pose.rotation[first]
         centres = solids.model.blocks.centroids + pose.shift[first]
@@ -74,14 +73,9 @@ class _Moved:
         return np.asarray(self.centroids[own] + np.einsum("nij,nj->ni", self.rotation[own], arms))
 
 
-def row_residuals(
-    model: Model, contacts: Contacts, section: ContactsSection, case: LoadCase, flow_rule: str, rows: PushedRows
-) -> list[RowResidual]:
-    """Of each row; of row 0, which has no points of its own, none.
-
-    model, contacts : as built, as they may move under the load case
-    """
-    solids = solids_of(replace(model, ties=NO_TIES), contacts)
+def row_residuals(assembly: Assembly, case: LoadCase, flow_rule: str, rows: PushedRows) -> list[RowResidual]:
+    """Of each row; of row 0, which has no points of its own, none."""
+    model, solids = assembly.model.of_case(case), assembly.glued(case)
     away = _away(solids, rows)
     return [
         replace(_residual(model, solids, case, flow_rule, rows, row, pose), away=away[row])
@@ -91,7 +85,7 @@ def row_residuals(
     ]
 
 
-def _away(solids: Solids, rows: PushedRows) -> FloatArray:
+def _away(solids: RigidBodies, rows: PushedRows) -> FloatArray:
     """Largest distance of points that are pressed from their bodies, of each row."""
     count = len(rows.load_factors)
     bodies, arms, of_row = [np.zeros(0, dtype=np.int64)], [np.zeros((0, 3))], [np.zeros(0, dtype=np.int64)]
@@ -109,7 +103,7 @@ def _away(solids: Solids, rows: PushedRows) -> FloatArray:
 
 
 def _residual(
-    model: Model, solids: Solids, case: LoadCase, flow_rule: str, rows: PushedRows, row: int, pose: Pose
+    model: Model, solids: RigidBodies, case: LoadCase, flow_rule: str, rows: PushedRows, row: int, pose: Pose
 ) -> RowResidual:
     points, fallen = rows.points_of(row), rows.fallen[row]
     surface = points.bodies[:, 0] >= 0
@@ -190,7 +184,7 @@ def _off_law(
 
 
 def _unbalanced(
-    model: Model, solids: Solids, there: _Moved, case: LoadCase, pose: Pose, factor: float, fallen: BoolArray
+    model: Model, solids: RigidBodies, there: _Moved, case: LoadCase, pose: Pose, factor: float, fallen: BoolArray
 ) -> FloatArray:
     """Loads on the solids there, (n_solids, 6), about their centroids; of a tilting table at the angle ``factor``."""
     moved = moved_case(case, pose)
@@ -212,7 +206,7 @@ def _add(left: FloatArray, there: _Moved, bodies: np.ndarray, places: FloatArray
     np.add.at(left, bodies[on], np.hstack([forces[on], np.cross(arms, forces[on])]))
 
 
-def _add_tie(left: FloatArray, there: _Moved, solids: Solids, ties: Ties, tie: int, force: float) -> None:
+def _add_tie(left: FloatArray, there: _Moved, solids: RigidBodies, ties: Ties, tie: int, force: float) -> None:
     own = slice(int(ties.start[tie]), int(ties.start[tie + 1]))
     on = ties.bodies[own] != OUTSIDE
     bodies = solids.label[ties.bodies[own][on]]

@@ -74,7 +74,7 @@ def residuals_of(case: Case, mechanics: Mechanics, dilatancy: FloatArray) -> Res
     moved, (by_interfaces, by_crushing) = case.velocities(u), case.interface_velocities(motions)
     v, interfaces = moved - by_interfaces, case.interface_terms(mechanics)
     sliding = np.hypot(v[:, 1], v[:, 2])
-    speed = float(np.linalg.norm(moved, axis=1).max(initial=gauge_speed(contacts, u)))
+    speed = float(np.linalg.norm(moved, axis=1).max(initial=load_cell_speed(contacts, u)))
     closing = np.where(np.isinf(limits.compression), np.maximum(by_crushing[:, 0] - moved[:, 0], 0.0), 0.0)
     dead_power, live_power = case.powers(u)
     counted = limits.at_most(NO_FORCE * largest_on_interface(contacts, x))
@@ -99,10 +99,10 @@ def residuals_of(case: Case, mechanics: Mechanics, dilatancy: FloatArray) -> Res
     )
 
 
-def gauge_speed(contacts: Contacts, mechanism: FloatArray) -> float:
-    """Speed at which the gauge of an objective, the last block, opens its cut; 0 without one.
+def load_cell_speed(contacts: Contacts, mechanism: FloatArray) -> float:
+    """Speed at which the load cell of an objective, the last block, opens its cut; 0 without one.
 
-    Joints of the cut move by that much less: blocks that follow the gauge leave them at rest but for rounding.
+    Joints of the cut move by that much less: blocks that follow it leave them at rest but for rounding.
     """
     return 0.0 if contacts.cut is None else float(np.linalg.norm(mechanism[-1, :3]))
 

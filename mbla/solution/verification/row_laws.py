@@ -6,26 +6,20 @@ where laws go by place, the deck says the law: that of the ground, of all contac
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 
 from mbla.arrays import IntArray
-from mbla.contacts.contacts import Contacts
-from mbla.contacts.glue import solids_of
+from mbla.assembly.assembly import Assembly
 from mbla.deck.sections.contacts import ContactsSection
-from mbla.model.model import Model
-from mbla.model.ties.ties import NO_TIES
+from mbla.model.model import LoadCase
 from mbla.solution.pushover.record import PushedRows
 
 
-def row_of_another_law(model: Model, contacts: Contacts, section: ContactsSection, rows: PushedRows) -> int | None:
-    """The first row with a point whose joint law its deck does not give, or whose bodies there are not; None for none.
-
-    model, contacts : as built, as they may move under the load case
-    """
-    built = solids_of(replace(model, ties=NO_TIES), contacts)
-    n_solids, names = len(built.model.blocks), list(model.joints)
+def row_of_another_law(assembly: Assembly, section: ContactsSection, case: LoadCase, rows: PushedRows) -> int | None:
+    """The first row with a point whose joint law its deck does not give, or whose bodies are not there, or None."""
+    built = assembly.glued(case)
+    model, n_solids = built.model, len(built.model.blocks)
+    names = list(model.joints)
     n_bodies = n_solids + len(model.grounds)
     on = rows.points.bodies[:, 0] >= 0
     bodies, laws = rows.points.bodies[on], rows.points.laws[on]

@@ -47,7 +47,7 @@ def contact_resultants(model: Model, contacts: Contacts, contact_forces: FloatAr
         arm = contacts.points[here] - model.blocks.centroids[block]
         on_block = sign * force[here]
         np.add.at(total, block, np.concatenate([on_block, np.cross(arm, on_block)], axis=1))
-    if contacts.cut_of_point is not None:  # the gauge of an objective feels what passes through its cut
+    if contacts.cut_of_point is not None:  # the load cell of an objective measures what passes through its cut
         total[-1, :3] += contacts.cut_of_point @ force
     if contacts.ties is not None:  # N alone, along their lines and at further points
         ties = contacts.ties
@@ -210,7 +210,7 @@ def load_scale(model: Model, contacts: Contacts, load_case: LoadCase, limits: Yi
     """Sizes of the loads of one case."""
     arms = lever_arms(model, contacts)
     dead, live = (load_sizes(load, arms) * ~model.fixed for load in (load_case.dead_load, load_case.live_load))
-    if contacts.cut is not None:  # a gauge has none: it holds a force that may be nothing
+    if contacts.cut is not None:  # a load cell has none: it holds a force that may be nothing
         dead[-1] = 0.0
     strength = float((limits.cohesion + limits.tension).sum()) / len(model.free)
     candidates = (dead, np.where(model.fixed, 0.0, strength), live)

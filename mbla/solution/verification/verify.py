@@ -11,14 +11,14 @@ from dataclasses import replace
 
 import numpy as np
 
+from mbla.assembly.assembly import Assembly
+from mbla.assembly.rigid_bodies import RigidBodies
 from mbla.contacts.contacts import Contacts
-from mbla.contacts.glue import solids_of
-from mbla.contacts.tied import tied
 from mbla.errors import Message
 from mbla.model.model import LoadCase, Model
 from mbla.process.stopwatch import stage
 from mbla.program.assemble import yield_limits
-from mbla.solution.glued import model_of, rule_of, solution_on_solids
+from mbla.solution.lifted import model_of, rule_of, solution_on_bodies
 from mbla.solution.solution import Checks, Solution, Standing, Status
 from mbla.solution.verification.case import Case
 from mbla.solution.verification.elastic_law import elastic_residual
@@ -52,19 +52,19 @@ FALL_SHOWN = Message(
 NOTHING_ACTS = Message("standing-not-proved", "it is said not to stand under the dead load alone, and there is none")
 
 APART = 1e-9
-"""Motion of glued blocks against each other, over the largest motion: rounding of the map from solids to blocks."""
+"""Motion of glued blocks against each other, over the largest motion: rounding of the map from bodies to blocks."""
 
 
 @stage("verify")
-def verify(model: Model, contacts: Contacts, load_case: LoadCase, solution: Solution) -> Checks:
-    """Recompute everything that a solution claims, from model and contacts alone; NaN where there is nothing to check.
+def verify(assembly: Assembly, load_case: LoadCase, solution: Solution) -> Checks:
+    """Recompute everything that a solution claims, from the assembly alone; NaN where there is nothing to check.
 
     No solver is called, and no matrix of the program stage is used for a verdict. Blocks that are glued to each other
     are judged as the rigid body they form.
     """
-    solids = tied(solids_of(model, contacts, load_case))
-    of_solids, apart = solution_on_solids(solution, solids)
-    checks = _verify(solids.model, solids.contacts, solids.load_case(load_case), of_solids)
+    bodies = assembly.of(load_case)
+    of_bodies, apart = solution_on_bodies(solution, bodies)
+    checks = _verify(*_claimed(bodies, load_case), of_bodies)
     if not apart <= APART:
         words = f"blocks that are glued to each other move apart, by {apart:.2g} of the largest motion"
         failure = Message("glued-blocks-part", words)
@@ -72,8 +72,13 @@ def verify(model: Model, contacts: Contacts, load_case: LoadCase, solution: Solu
     return checks
 
 
+def _claimed(bodies: RigidBodies, load_case: LoadCase) -> tuple[Model, Contacts, LoadCase]:
+    """Model, contacts and loads that are judged."""
+    return bodies.model, bodies.contacts, bodies.load_case(load_case)
+
+
 def _verify(model: Model, contacts: Contacts, load_case: LoadCase, solution: Solution) -> Checks:
-    """The same where every block is a solid."""
+    """The same where every block is a body."""
     of_mechanics = verify_convex if solution.conditions_on_interfaces else verify_points
     checks = of_mechanics(model, contacts, load_case, solution)
     failures = (
@@ -97,18 +102,18 @@ def _verify(model: Model, contacts: Contacts, load_case: LoadCase, solution: Sol
     )
 
 
-def residual_of(model: Model, contacts: Contacts, load_case: LoadCase, solution: Solution, part: str) -> float:
+def residual_of(assembly: Assembly, load_case: LoadCase, solution: Solution, part: str) -> float:
     """By how much forces and mechanism of a part of a solution violate the joint law at most, by the rule of that part.
 
     Of elastic joints their own law. NaN where nothing moves.
     """
-    solids = tied(solids_of(model, contacts, load_case))
-    of_solids, _ = solution_on_solids(solution, solids)
-    mechanics = getattr(of_solids, part)
+    bodies = assembly.of(load_case)
+    of_bodies, _ = solution_on_bodies(solution, bodies)
+    mechanics = getattr(of_bodies, part)
     if part == "level" and load_case.tilt is not None:
         load_case = replace(load_case, live_load=load_case.tilt.across)
     rule = rule_of(part, solution)
-    parts = solids.model, solids.contacts, solids.load_case(load_case)
+    parts = _claimed(bodies, load_case)
     case = Case(*parts)
     if mechanics.interface_motions is not None:
         case = InterfaceCase(*parts, model_of(part, solution), rule)
@@ -117,16 +122,16 @@ def residual_of(model: Model, contacts: Contacts, load_case: LoadCase, solution:
     return residuals_of(case, mechanics, dilatancy).largest if np.isnan(elastic) else elastic
 
 
-def locked_with_normality(model: Model, contacts: Contacts, load_case: LoadCase, solution: Solution) -> bool:
+def locked_with_normality(assembly: Assembly, load_case: LoadCase, solution: Solution) -> bool:
     """Whether forces prove that every multiple of the live load is carried with associative flow."""
     if solution.lock is None:
         return False
-    solids = tied(solids_of(model, contacts, load_case))
-    of_solids, _ = solution_on_solids(solution, solids)
-    return not _lock_failures(solids.model, solids.contacts, solids.load_case(load_case), of_solids)
+    bodies = assembly.of(load_case)
+    of_bodies, _ = solution_on_bodies(solution, bodies)
+    return not _lock_failures(*_claimed(bodies, load_case), of_bodies)
 
 
-def level_bound(model: Model, contacts: Contacts, load_case: LoadCase, solution: Solution) -> float:
+def level_bound(assembly: Assembly, load_case: LoadCase, solution: Solution) -> float:
     """Multiple of the load across that a level table is proved to bear: inf for every one, nan for none."""
     locks = solution.level_lock is not None
     if load_case.tilt is None or (solution.level is None and not locks):
@@ -146,7 +151,7 @@ def level_bound(model: Model, contacts: Contacts, load_case: LoadCase, solution:
         lock=solution.level_lock,
     )
     level = replace(load_case, live_load=load_case.tilt.across, tilt=None)
-    checks = verify(model, contacts, level, claim)
+    checks = verify(assembly, level, claim)
     return checks.static_bound if not locks else np.inf if checks.verified else np.nan
 
 
@@ -185,5 +190,5 @@ def _lock_failures(model: Model, contacts: Contacts, load_case: LoadCase, soluti
         return (Message("lock-not-proved", "no forces are given that carry every multiple of the live load"),)
     failures = lock_failures(model, contacts, load_case, solution.lock)
     if solution.conditions_on_interfaces:
-        failures += convex_lock_failures(model, contacts, solution.lock, solution.contact_model)
+        failures += convex_lock_failures(model, contacts, load_case, solution.lock, solution.contact_model)
     return failures

@@ -289,9 +289,11 @@ def _wrong_resultants(case: InterfaceCase, mechanics: Mechanics) -> tuple[Messag
     return (Message("wrong-resultants", "the resultants of the interfaces are not those of the contact forces"),)
 
 
-def convex_lock_failures(model: Model, contacts: Contacts, lock: FloatArray, contact_model: str) -> tuple[Message, ...]:
+def convex_lock_failures(
+    model: Model, contacts: Contacts, load_case: LoadCase, lock: FloatArray, contact_model: str
+) -> tuple[Message, ...]:
     """Why forces, (n_points, 3) [N], are not within the conditions on interfaces at any multiple."""
-    case = InterfaceCase(model, contacts, model.load_cases[0], contact_model)
+    case = InterfaceCase(model, contacts, load_case, contact_model)
     none = np.zeros(len(contacts))
     dry = replace(case.laws, cohesion=none, tension=none)
     resultants = case.resultants(lock)

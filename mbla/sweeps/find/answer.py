@@ -13,9 +13,7 @@ import io
 import math
 from dataclasses import dataclass, replace
 
-from mbla.contacts.findings import contacts_of
-from mbla.contacts.glue import held_model, solids_of
-from mbla.contacts.tied import tied
+from mbla.assembly import build_assembly
 from mbla.deck import Deck, read_deck_text
 from mbla.errors import DeckError, UsageError
 from mbla.model import Model, build_model
@@ -96,8 +94,7 @@ def _structure(deck: Deck, question: Question, *overrides: str) -> tuple[Deck, S
     """The deck with some values changed, and its structure; raises DeckError where it is refused."""
     varied = read_deck_text(deck.sources[0].text, deck.path, (*deck.overrides, *overrides), expected=False)
     model = build_model(varied)
-    contacts = contacts_of(varied, model)
-    return varied, Structure(held_model(model, contacts), contacts, _case(model, question))
+    return varied, Structure(build_assembly(varied, model), _case(model, question))
 
 
 def _case(model: Model, question: Question) -> LoadCase:
@@ -120,9 +117,8 @@ def _case(model: Model, question: Question) -> LoadCase:
 
 def _factor(deck: Deck, question: Question, structure: Structure, x: float) -> Answer:
     """A load factor of the load case, as ``mbla run`` gives it."""
-    model, contacts, load_case = structure.model, structure.contacts, structure.load_case
     log = StatusFile(io.StringIO(), deck.title)
-    case = solve_case(deck, model, contacts, load_case, solver_settings(deck.analysis), log, None)
+    case = solve_case(deck, structure.assembly, structure.load_case, solver_settings(deck.analysis), log, None)
     status, verified = case.status.value, case.checks.verified
     if case.status in (Status.NO_EQUILIBRIUM, Status.UNBOUNDED):
         side = -math.inf if case.status is Status.NO_EQUILIBRIUM else math.inf
@@ -186,5 +182,5 @@ def standing_at(deck: Deck, question: Question, x: float) -> StandingResult:
     """Whether it stands from the stress-free assembly for a value at which some forces carry the dead load."""
     varied, structure = _structure(deck, question, f"{question.parameter}={x!r}")
     settings = solver_settings(varied.analysis)
-    model, contacts, case = structure.model, structure.contacts, replace(structure.load_case, tilt=None)
-    return standing_where_carried(build_program(tied(solids_of(model, contacts, case)), case, settings.analysis))
+    case = replace(structure.load_case, tilt=None)
+    return standing_where_carried(build_program(structure.assembly, case, settings.analysis))

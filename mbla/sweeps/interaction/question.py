@@ -22,7 +22,7 @@ from typing import Any
 
 import numpy as np
 
-from mbla.contacts.findings import contacts_of
+from mbla.assembly import build_assembly
 from mbla.deck import Deck
 from mbla.errors import UsageError
 from mbla.model import build_model
@@ -94,7 +94,7 @@ def question_of(deck: Deck, options: Any, ratio: Callable[[], float] = lambda: 1
         for options that do not go together, and for load cases of which it cannot be asked
     """
     model = build_model(deck)
-    contacts_of(deck, model)
+    build_assembly(deck, model)
     if options.loads is None:
         if options.start is not None or options.end is not None:
             raise UsageError("interact-option", "--from and --to apply with --loads; directions go all around")

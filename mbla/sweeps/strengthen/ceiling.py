@@ -63,7 +63,7 @@ def _words(results: Results, case: CaseResult, found: float, wanted: float, name
     """Load factor, moving part, and ties that bear less than they could."""
     model = results.model.of_case(case.load_case)
     says = f"{why}, {case.load_case.name} carries {number(found)}, required {number(wanted)}"
-    how = description_of(model, results.contacts, case)
+    how = description_of(results.assembly, case)
     if how is not None and len(how.sentences) > 1:
         says += f". It fails so: {how.sentences[1].rstrip('.')}"
     rows = zip(names, tie_rows(model, result_of(case))[-len(names) :] if names else (), strict=True)

@@ -8,8 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from mbla.arrays import FloatArray
-from mbla.contacts.findings import contacts_of
-from mbla.contacts.glue import held_model
+from mbla.assembly import build_assembly
 from mbla.deck import Deck
 from mbla.errors import DeckError, UsageError
 from mbla.model import Model, build_model
@@ -48,9 +47,8 @@ def question_of(deck: Deck, log: Log) -> tuple[Model, Candidates, Strengthening]
     """Model, candidates and program of a deck; raises DeckError with the faults of candidates."""
     section = deck.content.strengthen
     assert section is not None  # refused before
-    model = build_model(deck)
-    contacts = contacts_of(deck, model)
-    model = held_model(model, contacts)
+    assembly = build_assembly(deck, build_model(deck))
+    model = assembly.model
     structure = structure_of(deck)
     tolerance = deck.contacts.tolerance
     candidates = build_candidates(section.candidates, structure.roster, model.fixed, model.grounds, tolerance)
@@ -61,8 +59,7 @@ def question_of(deck: Deck, log: Log) -> tuple[Model, Candidates, Strengthening]
         model,
         candidates,
         Strengthening(
-            model=replace(model, ties=joined_ties([model.ties, candidates.ties])),
-            contacts=contacts,
+            assembly=replace(assembly, model=replace(model, ties=joined_ties([model.ties, candidates.ties]))),
             first=len(model.ties),
             costs=candidates.costs,
             most=greatest_there(candidates.most, section.catalogue),

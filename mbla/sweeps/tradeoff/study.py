@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from mbla.arrays import FloatArray
-from mbla.contacts.findings import contacts_of
+from mbla.assembly import build_assembly
 from mbla.deck import Deck
 from mbla.errors import LimitError, SolverError
 from mbla.model import build_model
@@ -73,7 +73,7 @@ def tradeoff(deck: Deck, run: RunOptions, options: Any, report: Report | None) -
     chosen = study_options(deck, run, "tradeoff", EngineOptions(until=until, threads=run.threads))
     assert chosen.folder is not None
     model = build_model(deck)
-    contacts_of(deck, model)  # what is wrong with it is reported before a process is started
+    build_assembly(deck, model)  # what is wrong with it is reported before a process is started
     cases = {case.deck_name: case for case in select_cases(model, run.cases)}
     rungs = ladder_of(deck, run.overrides, named)
     points = {rung.name: rung.settings for rung in rungs if not rung.unfit}

@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from mbla.assembly import build_assembly
 from mbla.contacts import Contacts
-from mbla.contacts.findings import contacts_of
 from mbla.deck import read_deck
 from mbla.model import build_model
 from mbla.model.model import Model
@@ -37,7 +37,7 @@ def built(folder: Path, block: str, supports: str = "[]") -> tuple[Model, Contac
     path.write_text(DECK.format(block=f"{{{block}}}", supports=supports))
     deck = read_deck(path)
     model = build_model(deck)
-    return model, contacts_of(deck, model)
+    return model, build_assembly(deck, model).contacts
 
 
 def backing(model: Model) -> np.ndarray:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from mbla.assembly.assembly import Assembly
 from mbla.deck.sections.analysis import AnalysisSection
 from mbla.program import assemble
 from mbla.program.reductions import Reduced, allowed_reductions, reduce_program
@@ -43,7 +44,7 @@ def _answer(structure: Structure, analysis: AnalysisSection) -> Answer:
 
 def _verified(structure: Structure, analysis: AnalysisSection) -> tuple[Solution, Checks]:
     solution = solve_parts(_reduced(structure, analysis), solver_settings(analysis))
-    return solution, verify(structure.model, structure.contacts, structure.load_case, solution)
+    return solution, verify(Assembly(structure.model, structure.contacts), structure.load_case, solution)
 
 
 def _reduced(structure: Structure, analysis: AnalysisSection) -> Reduced:

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
+from mbla.assembly import build_assembly
 from mbla.contacts import Contacts
-from mbla.contacts.findings import contacts_of
 from mbla.deck import Deck, read_deck
 from mbla.model import Model, build_model
 from mbla.model.model import LoadCase, select_cases
@@ -64,4 +64,4 @@ def structure_of(standard: Standard, overrides: Sequence[str] = (), *, planar: b
     deck = read_deck(standard.deck, (*standard.overrides, "analysis.flow_rule=associative", *overrides))
     model = build_model(deck)
     (load_case,) = select_cases(model, [standard.load_case])
-    return Structure(deck, model, contacts_of(deck, model), load_case, planar)
+    return Structure(deck, model, build_assembly(deck, model).contacts, load_case, planar)

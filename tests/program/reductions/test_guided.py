@@ -7,8 +7,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from mbla.assembly import assembly_of
+from mbla.assembly.assembly import Assembly
 from mbla.contacts import find_contacts
-from mbla.contacts.glue import held_model, solids_of
 from mbla.deck import read_deck
 from mbla.model import build_model
 from mbla.program import assemble
@@ -52,7 +53,7 @@ def answer(tmp_path: Path, support: str, push: str, reduce: bool = True) -> tupl
     if reduce:
         reduced = reduce_program(model, contacts, program, ReductionSwitches(), associative=True)
     solution = solve_parts(reduced, solver_settings(deck.analysis))
-    checks = verify(model, contacts, case, solution)
+    checks = verify(Assembly(model, contacts), case, solution)
     assert verified_status(solution, checks) is Status.SOLVED, checks.failures
     assert solution.mechanics is not None
     assert solution.size is not None
@@ -187,11 +188,11 @@ def test_unknowns_before_and_after(law: str, foot: str, found: int, before: int,
 
 
 @pytest.mark.parametrize(("law", "found"), [("dry", 0), ("glued", 3)])
-def test_the_gauge_of_a_force_is_none_of_the_blocks_that_glue_saves(law: str, found: int) -> None:
+def test_the_load_cell_of_a_force_is_none_of_the_blocks_that_glue_saves(law: str, found: int) -> None:
     sought = text(law, "dry").replace(
         "push: {live: [{acceleration: [1, 0, 0]}]}", "push: {objective: {force: {from: foot, direction: [0, 0, 1]}}}"
     )
-    _, _, cases = cases_of(sought)
+    _, cases = cases_of(sought)
     steps = [step for case in cases for step in case.solution.reductions if step.name == "glued"]
     assert [(step.found, step.before.unknowns - step.after.unknowns) for step in steps] == [(found, 4 * found)] * 2
 
@@ -208,8 +209,7 @@ def test_a_joint_that_is_never_overcome_is_glued(flow_rule: str) -> None:
 def test_blocks_held_by_glue_have_no_unknowns() -> None:
     line = line_of(text("dry", "glued"))
     contacts = find_contacts(line.model, line.deck.contacts)
-    model = held_model(line.model, contacts)
-    solids = solids_of(model, contacts)
-    program = assemble(solids.model, solids.contacts, solids.load_case(line.load_case))
-    step = glued_step(solids, size_of([program]))
+    bodies = assembly_of(line.model, contacts).of(line.load_case)
+    program = assemble(bodies.model, bodies.contacts, bodies.load_case(line.load_case))
+    step = glued_step(bodies, size_of([program]))
     assert (step.found, step.before.unknowns, step.after.unknowns) == (1, 18, 12)

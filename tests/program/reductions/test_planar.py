@@ -171,9 +171,8 @@ def test_motions_of_a_half_keep_their_size() -> None:
     whole = scene(WALL, push(0, 1, 0))
     mirror = mirror_about(whole, np.array([1.0, 0.0, 0.0]))
     assert mirror is not None
-    half = half_of(whole, mirror)
-    assert half.reduction is not None
-    gram = half.reduction.velocities.T @ half.reduction.velocities
+    half, way = half_of(whole, mirror)
+    gram = half.lift.velocities.T @ way.velocities
     assert gram.toarray() == pytest.approx(np.eye(gram.shape[0]), abs=1e-12)
 
 

@@ -13,8 +13,8 @@ from mbla.program.reductions import Reduced, StepState, reduce_program, unreduce
 from mbla.program.reductions.steps import ReductionSwitches
 from mbla.program.yield_conditions import yield_violation
 from mbla.solution.associative.solve_associative import solve_associative
+from mbla.solution.mechanics import lifted
 from mbla.solution.nonassociative.law_state import LawState
-from mbla.solution.parts import to_full
 from mbla.solution.settings import SolverSettings
 from tests.line import BLOCK, HEAD, WALL, Line, line_of, verified
 
@@ -79,9 +79,8 @@ def test_planar_and_spatial_optimum_agree_and_the_way_back_is_exact(text: str, c
     assert part.components == 2
     assert part.equilibrium_matrix.shape[0] == line.program.equilibrium_matrix.shape[0] // 2
     assert planar.load_factor == pytest.approx(spatial.load_factor, rel=1e-6)
-    program, state = to_full(part, planar)
-    assert program is line.program
-    assert_state_of(program, state)
+    assert part.full is line.program
+    assert_state_of(line.program, lifted(part, planar))
 
 
 def assert_state_of(program: Program, state: LawState) -> None:

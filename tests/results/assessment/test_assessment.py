@@ -10,6 +10,7 @@ from typing import Any
 import pytest
 
 import mbla
+from mbla.assembly.assembly import Assembly
 from mbla.results.assessment.assessment import Assessment, assessment_of
 from mbla.results.verify import verify_file
 
@@ -24,7 +25,7 @@ def assessed(text: str, case: str = "outwards", **overrides: Any) -> Assessment:
     """Of a load case of a deck, a few coarse steps far."""
     changes = QUICK if case == "outwards" else {}
     run = mbla.run(text, cases=case, set=changes | {key.replace("__", "."): value for key, value in overrides.items()})
-    found = assessment_of(run.model, run.contacts, run.case(case).record)
+    found = assessment_of(Assembly(run.model, run.contacts), run.case(case).record)
     assert found is not None
     return found
 
@@ -43,7 +44,7 @@ def ratios(found: Assessment) -> dict[str, float]:
 def test_the_worked_example_from_deck_to_file_and_back(tmp_path: Path) -> None:
     run = mbla.run(FACADE, output=tmp_path)
     case = run.case("outwards")
-    found = assessment_of(run.model, run.contacts, case.record)
+    found = assessment_of(Assembly(run.model, run.contacts), case.record)
     assert found is not None
     assert found.remarks == ()
     assert values(found) == pytest.approx(
@@ -62,14 +63,14 @@ def test_the_worked_example_from_deck_to_file_and_back(tmp_path: Path) -> None:
     alpha = math.atan(0.075)
     rest = math.asin(math.sin(alpha) - math.sin(theta))
     assert slv["a(d)"] == pytest.approx(math.tan(rest) * 9.81 / 1.35, rel=1e-5)
-    old = assessment_of(run.model, run.contacts, run.case("by_circular_of_2009").record)
+    old = assessment_of(Assembly(run.model, run.contacts), run.case("by_circular_of_2009").record)
     assert old is not None
     assert ratios(old) == pytest.approx({"SLV": 0.4630}, abs=5e-5)
     assert slv["q a_g,0"] / slv["a_g"] == pytest.approx(0.4630, abs=5e-5)
 
     stored, disagreements = verify_file(tmp_path / f"{FACADE.stem}.h5")
     assert disagreements == ()
-    back = assessment_of(stored.model, stored.contacts, stored.cases[0])
+    back = assessment_of(stored.assembly, stored.cases[0])
     assert back == found
 
 
@@ -204,7 +205,7 @@ def test_the_verdict_is_of_the_least_load_factor_that_was_found() -> None:
     assert own is not None
     least = 0.8 * own.load_factor
     searched = replace(record, checks=replace(record.checks, least_load_factor=least))
-    plain, lower = (assessment_of(run.model, run.contacts, case) for case in (record, searched))
+    plain, lower = (assessment_of(Assembly(run.model, run.contacts), case) for case in (record, searched))
     assert plain is not None
     assert lower is not None
     assert values(lower)["alpha_0"] == pytest.approx(0.8 * values(plain)["alpha_0"])

@@ -56,7 +56,7 @@ def mode_between(results: Results, bodies: set[int], motion: np.ndarray) -> int:
     """Mode of the interface of two bodies."""
     contacts = results.contacts
     row = next(i for i, pair in enumerate(contacts.bodies.tolist()) if set(pair) == bodies)
-    return int(fall_of(results.model, contacts, motion)[0].interfaces.modes[row])
+    return int(fall_of(results.assembly, results.cases[0].load_case, motion)[0].interfaces.modes[row])
 
 
 @pytest.mark.parametrize(

@@ -10,6 +10,8 @@ import numpy as np
 import pytest
 
 import mbla
+from mbla.assembly.assembly import Assembly
+from mbla.assembly.rigid_bodies import rigid_bodies
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import Model
 from mbla.results.collapse.clusters import ENOUGH, FEW, clusters_of
@@ -56,7 +58,7 @@ def told(text: str, *overrides: str, case: int = 0) -> tuple[Model, Contacts, Fa
     line = line_of(text, *overrides, case=case)
     solution, _, _ = verified(line)
     assert solution.mechanics is not None
-    collapse = collapse_of(line.model, line.contacts, line.load_case, solution.mechanics)
+    collapse = collapse_of(line.assembly, line.load_case, solution.mechanics)
     failure = failure_of(line.model, line.contacts, collapse, solution.mechanics)
     return line.model, line.contacts, failure
 
@@ -73,7 +75,7 @@ def clusters(n: int, speeds: Any) -> tuple[Any, float]:
     model, contacts = stack(n)
     motion = np.zeros((n, 6))
     motion[:, 0] = speeds
-    found = clusters_of(model, rigid_parts(model, contacts, motion), motion)
+    found = clusters_of(model, rigid_parts(model, rigid_bodies(model, contacts), motion), motion)
     return found.of_block.tolist(), found.explained
 
 
@@ -112,7 +114,7 @@ def test_a_slab_slides_in_one_plane_and_friction_takes_all_the_power() -> None:
     _, result = case_of(SLIDE)
     mechanics = result.solution.mechanics
     assert mechanics is not None
-    collapse = collapse_of(line.model, line.contacts, line.load_case, mechanics)
+    collapse = collapse_of(line.assembly, line.load_case, mechanics)
     failure = failure_of(line.model, line.contacts, collapse, mechanics)
     (plane,) = failure.sliding_planes
     assert plane.clusters == (1, 0)
@@ -160,7 +162,7 @@ def test_hinges_of_two_clusters_are_one_line_only_where_their_axes_are_one(edge:
     outer = contacts.points[:, 0] >= 1.0  # the feet give at their edges as one joint law has it
     modes = np.where(outer, ContactMode.STICK, ContactMode.OPEN)
     collapse = collapse_of(
-        model, contacts, model.load_cases[0], Mechanics(1.0, np.ones((8, 3)), velocities, motion, modes)
+        Assembly(model, contacts), model.load_cases[0], Mechanics(1.0, np.ones((8, 3)), velocities, motion, modes)
     )
     moved = replace(
         collapse.interfaces,

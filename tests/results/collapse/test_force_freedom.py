@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from mbla.assembly.rigid_bodies import rigid_bodies
 from mbla.contacts import find_contacts
 from mbla.errors import MblaError
 from mbla.program import assemble
@@ -53,7 +54,7 @@ def freedom(text: str, *overrides: str, dimension: int = 2) -> tuple[int, list[b
     line = line_of(text, *overrides)
     solution, _, _ = verified(line)
     assert solution.mechanics is not None
-    found = force_freedom(line.model, line.contacts, solution.mechanics, dimension)
+    found = force_freedom(rigid_bodies(line.model, line.contacts), solution.mechanics, dimension)
     assert isinstance(found, ForceFreedom)
     return found.degree, found.determined.tolist()
 
@@ -85,7 +86,7 @@ def test_interfaces_called_determined_have_no_range() -> None:
     mechanics, ranges = result.solution.mechanics, result.solution.force_ranges
     assert mechanics is not None
     assert ranges is not None
-    found = force_freedom(model, line.contacts, mechanics, 2)
+    found = force_freedom(rigid_bodies(model, line.contacts), mechanics, 2)
     assert isinstance(found, ForceFreedom)
     widths = ranges[:, 1] - ranges[:, 0]
     scale = float(np.abs(ranges[np.isfinite(ranges)]).max())
@@ -100,12 +101,12 @@ def test_what_is_guided_or_without_contact_is_not_judged() -> None:
     solution, _, _ = verified(line)
     assert solution.mechanics is not None
     assert len(line.model.guides.blocks)
-    assert "guided" in str(force_freedom(line.model, line.contacts, solution.mechanics, 3))
+    assert "guided" in str(force_freedom(rigid_bodies(line.model, line.contacts), solution.mechanics, 3))
 
 
 def test_without_contacts_there_is_nothing_to_determine() -> None:
     contacts = without_contacts(tower_contacts())
-    assert force_freedom(tower_model(), contacts, tower_mechanics(), 3) == "there are no contacts"
+    assert force_freedom(rigid_bodies(tower_model(), contacts), tower_mechanics(), 3) == "there are no contacts"
 
 
 # --- Fixing what rests leaves the load factor: the smaller model is built and solved --------------------------------
@@ -124,7 +125,7 @@ def solved(line: Line) -> Mechanics:
 
 def with_rest_fixed(line: Line, mechanics: Mechanics) -> tuple[Line, int]:
     """The same line with every block at rest fixed, and how many free blocks are left."""
-    parts = rigid_parts(line.model, line.contacts, mechanics.mechanism)
+    parts = rigid_parts(line.model, rigid_bodies(line.model, line.contacts), mechanics.mechanism)
     guides = line.model.guides
     guided = parts[guides.blocks] > 0
     bodies = np.unique(guides.bodies[guided], return_inverse=True)[1].astype(np.int64)
@@ -143,7 +144,7 @@ def with_rest_fixed(line: Line, mechanics: Mechanics) -> tuple[Line, int]:
 def test_blocks_by_what_they_do_for_what_moves() -> None:
     """The tower turns on its base, which is fixed; the brick rests by itself."""
     model, contacts = tower_model(), tower_contacts()
-    enough = enough_of(model, contacts, rigid_parts(model, contacts, tower_mechanics().mechanism))
+    enough = enough_of(model, contacts, rigid_parts(model, rigid_bodies(model, contacts), tower_mechanics().mechanism))
     assert enough.moving.tolist() == [1]
     assert enough.interfaces.tolist() == [0]
     assert enough.bearing.tolist() == []

@@ -11,7 +11,8 @@ import numpy as np
 import pytest
 
 from mbla.arrays import FloatArray, IntArray
-from mbla.contacts.glue import solids_of
+from mbla.assembly.assembly import Assembly
+from mbla.assembly.rigid_bodies import rigid_bodies
 from mbla.results.collapse.collapse import Collapse, Failure, collapse_of, failure_of
 from mbla.results.collapse.force_freedom import _equilibrium, _plane_rows, _resultants, enough_of, force_freedom
 from mbla.results.collapse.interface_modes import InterfaceMode
@@ -48,9 +49,9 @@ def numbers(state: State, old: IntArray) -> dict[str, Any]:
     """All that has no direction and no unit; blocks by their old numbers."""
     model, contacts, mechanics = state.model, state.contacts, state.mechanics
     thrust = thrust_of(model, contacts, mechanics.contact_forces)
-    collapse = collapse_of(model, contacts, state.load_case, mechanics)
+    collapse = collapse_of(Assembly(model, contacts), state.load_case, mechanics)
     failure = failure_of(model, contacts, collapse, mechanics)
-    freedom = force_freedom(model, contacts, mechanics, state.dimension)
+    freedom = force_freedom(rigid_bodies(model, contacts), mechanics, state.dimension)
     enough = enough_of(model, contacts, collapse.parts)
     reactions = group_reactions(model, contacts, mechanics.contact_forces)
     return {
@@ -58,7 +59,7 @@ def numbers(state: State, old: IntArray) -> dict[str, Any]:
         "eccentricity": thrust.eccentricity,
         "friction_use": thrust.friction_use,
         "torsion_use": torsion_use(model, contacts, mechanics.contact_forces, state.contact_model),
-        "lines": {frozenset(line.tolist()) for line in thrust_lines(model, contacts, thrust)},
+        "lines": {frozenset(line.tolist()) for line in thrust_lines(rigid_bodies(model, contacts), thrust)},
         "modes": collapse.interfaces.modes,
         "parts": partition(collapse.parts, old),
         "clusters": partition(failure.clusters, old),
@@ -134,7 +135,7 @@ def check_partition(state: State) -> None:
 
 
 def told(state: State) -> tuple[Collapse, Failure]:
-    collapse = collapse_of(state.model, state.contacts, state.load_case, state.mechanics)
+    collapse = collapse_of(Assembly(state.model, state.contacts), state.load_case, state.mechanics)
     return collapse, failure_of(state.model, state.contacts, collapse, state.mechanics)
 
 
@@ -152,8 +153,8 @@ def check_degree(state: State, degree: int | None) -> None:
     """Unknown resultants less the rank of their equations, by all singular values."""
     if degree is None:
         return
-    solids = solids_of(state.model, state.contacts)
-    model, contacts, mechanism = solids.model, solids.contacts, state.mechanics.mechanism
+    bodies = rigid_bodies(state.model, state.contacts)
+    model, contacts, mechanism = bodies.model, bodies.contacts, state.mechanics.mechanism
     rows = _plane_rows(contacts, mechanism) if state.dimension == 2 else np.eye(6)
     assert rows is not None
     bases, owner = _resultants(model, contacts, state.mechanics, rows)

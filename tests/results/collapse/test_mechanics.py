@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from mbla.assembly.rigid_bodies import rigid_bodies
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import Joint, Model
 from mbla.results.collapse.mechanics import (
@@ -106,7 +107,7 @@ def test_outside_of_a_curved_chain() -> None:
     joints = (angles[1:] + angles[:-1]) / 2
     radii = np.column_stack([np.cos(joints), np.zeros(12), np.sin(joints)])
     normals = np.column_stack([np.sin(joints), np.zeros(12), -np.cos(joints)])
-    sides = curvature_sides(model, replace(contacts, centroids=radii, normals=normals))
+    sides = curvature_sides(rigid_bodies(model, replace(contacts, centroids=radii, normals=normals)))
     along = np.einsum("ij,ij->i", sides, radii) / np.linalg.norm(sides, axis=1)
     assert along[1:-1] == pytest.approx(1)
     assert (along[[0, -1]] > 0.9).all()
@@ -116,7 +117,7 @@ def test_a_pile_that_leans_over_has_no_outside() -> None:
     """Its joints lie on a curve, but are parallel: no voussoirs, no intrados."""
     model, contacts = chain([[0.1 * i**2, 0, i] for i in range(6)])
     joints = np.array([[0.1 * (i + 0.5) ** 2, 0, i + 0.5] for i in range(5)])
-    assert not curvature_sides(model, replace(contacts, centroids=joints)).any()
+    assert not curvature_sides(rigid_bodies(model, replace(contacts, centroids=joints))).any()
 
 
 # ---  ---------------------------------------------------------------------------------------------------------------

@@ -4,6 +4,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from mbla.assembly.rigid_bodies import rigid_bodies
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import Model
 from mbla.results.collapse.rigid_parts import moving_share, part_motions, parts_of_one_twist, reach, rigid_parts
@@ -35,7 +36,7 @@ def rigid(model: Model, blocks: Any, point: Any, rotation: Any, velocity: Any = 
 def test_blocks_that_turn_together_are_one_part() -> None:
     model, contacts = stack(6)
     motion = rigid(model, [3, 4, 5], (1, 0.5, 3), (0.0, 1.0, 0.0))
-    parts = rigid_parts(model, contacts, motion)
+    parts = rigid_parts(model, rigid_bodies(model, contacts), motion)
     assert parts.tolist() == [0, 0, 0, 1, 1, 1]
     (part,) = part_motions(model, parts, motion)
     assert part.blocks.tolist() == [3, 4, 5]
@@ -49,19 +50,19 @@ def test_contacts_that_hardly_move_add_up_along_a_part() -> None:
     model, contacts = stack(7)
     motion = rigid(model, [1, 2, 3, 4, 5, 6], (0, 0, 0), (0, 0, 0), (1.0, 0, 0))
     motion[3:, 0] += 5e-5 * np.arange(4)  # each against the one below
-    assert rigid_parts(model, contacts, motion).tolist() == [0, 1, 1, 1, 1, 1, 1]
-    assert parts_of_one_twist(model, contacts, motion).tolist() == [0, 1, 1, 1, 4, 3, 2]
+    assert rigid_parts(model, rigid_bodies(model, contacts), motion).tolist() == [0, 1, 1, 1, 1, 1, 1]
+    assert parts_of_one_twist(model, rigid_bodies(model, contacts), motion).tolist() == [0, 1, 1, 1, 4, 3, 2]
     motion[3:, 0] = 1.0 + 1e-8
-    assert parts_of_one_twist(model, contacts, motion).tolist() == [0, 1, 1, 1, 1, 1, 1]
+    assert parts_of_one_twist(model, rigid_bodies(model, contacts), motion).tolist() == [0, 1, 1, 1, 1, 1, 1]
     motion[1:3, 0] = 5e-5  # almost at rest
-    assert rigid_parts(model, contacts, motion).tolist() == [0, 0, 0, 1, 1, 1, 1]
-    assert parts_of_one_twist(model, contacts, motion).tolist() == [0, 2, 2, 1, 1, 1, 1]
+    assert rigid_parts(model, rigid_bodies(model, contacts), motion).tolist() == [0, 0, 0, 1, 1, 1, 1]
+    assert parts_of_one_twist(model, rigid_bodies(model, contacts), motion).tolist() == [0, 2, 2, 1, 1, 1, 1]
 
 
 def test_nothing_moves_nothing_but_rest() -> None:
     model, contacts = stack(3)
     still = np.zeros((3, 6))
-    parts = rigid_parts(model, contacts, still)
+    parts = rigid_parts(model, rigid_bodies(model, contacts), still)
     assert parts.tolist() == [0, 0, 0]
     assert part_motions(model, parts, still) == ()
     assert part_lines(model, ()) == []
@@ -80,14 +81,14 @@ def test_blocks_without_contact_move_alone() -> None:
         frames=np.zeros((0, 3, 3)),
     )
     motion = rigid(model, [1, 2], (0, 0, 0), (0, 0, 0), (0, 0, -1.0))
-    assert rigid_parts(model, apart, motion).tolist() == [0, 2, 1]
+    assert rigid_parts(model, rigid_bodies(model, apart), motion).tolist() == [0, 2, 1]
 
 
 def test_a_turn_too_slight_for_its_size_is_a_travel() -> None:
     model, contacts = stack(3)
     for rotation, turns in ((1e-3, False), (0.1, True)):
         motion = rigid(model, [1, 2], (0.5, 0.5, 2), (0, rotation, 0), (1.0, 0, 0))
-        (part,) = part_motions(model, rigid_parts(model, contacts, motion), motion)
+        (part,) = part_motions(model, rigid_parts(model, rigid_bodies(model, contacts), motion), motion)
         assert part.turns is turns
     assert part.axis_point == pytest.approx([0.5, 0.5, 2 - 1 / 0.1])  # the centre of rotation lies below
 
@@ -104,4 +105,4 @@ def test_equal_parts_are_numbered_by_their_first_block_though_weights_differ_by_
     model = replace(model, blocks=replace(model.blocks, densities=1 + 1e-15 * np.array([0, 1, 5, 2, 4])))
     motion = np.zeros((5, 6))
     motion[1:, 0] = [1, 2, 3, 4]
-    assert rigid_parts(model, contacts, motion).tolist() == [0, 1, 2, 3, 4]
+    assert rigid_parts(model, rigid_bodies(model, contacts), motion).tolist() == [0, 1, 2, 3, 4]

@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from mbla.assembly.rigid_bodies import rigid_bodies
 from mbla.results.collapse.thrust import interface_chains, point_friction_use, thrust_lines, thrust_of
 from mbla.solution.solution import Mechanics
 from tests.line import line_of, solution_of
@@ -96,7 +97,7 @@ def test_thrust_line_of_an_arch_reaches_its_edge_at_the_four_hinges() -> None:
     line = line_of(ARCH)
     mechanics = mechanics_of(solution_of(line))
     thrust = thrust_of(line.model, line.contacts, mechanics.contact_forces)
-    (chain,) = thrust_lines(line.model, line.contacts, thrust)
+    (chain,) = thrust_lines(rigid_bodies(line.model, line.contacts), thrust)
     assert sorted(chain.tolist()) == list(range(16))
     steps = np.diff(thrust.points[chain][:, 0])
     assert (steps > 0).all() or (steps < 0).all()
@@ -113,7 +114,7 @@ def test_a_wall_is_no_chain_and_a_column_is_one_to_its_top() -> None:
             "wall: {material: stone, unit: [0.4, 0.2, 0.2], length: 2, courses: 4}",
         )
     )
-    assert interface_chains(wall.model, wall.contacts) == ()
+    assert interface_chains(rigid_bodies(wall.model, wall.contacts)) == ()
     tower = replace(
         tower_model(),
         blocks=cuboids([[0, 0, i] for i in range(3)], [[1, 1, i + 1] for i in range(3)], ("a", "b", "c")),
@@ -121,7 +122,7 @@ def test_a_wall_is_no_chain_and_a_column_is_one_to_its_top() -> None:
         grounds=tower_model().grounds[:1],
     )
     contacts = horizontal_contacts([[3, 0], [0, 1], [1, 2]], [(0, 1, 0, 1, z) for z in range(3)])
-    assert [chain.tolist() for chain in interface_chains(tower, contacts)] == [[0, 1, 2]]
+    assert [chain.tolist() for chain in interface_chains(rigid_bodies(tower, contacts))] == [[0, 1, 2]]
 
 
 def test_a_ring_of_blocks_closes() -> None:
@@ -132,6 +133,6 @@ def test_a_ring_of_blocks_closes() -> None:
         grounds=(),
     )
     ring = horizontal_contacts([[0, 1], [1, 2], [0, 2]], [(0, 1, 0, 1, z) for z in range(3)])
-    (chain,) = interface_chains(tower, ring)
+    (chain,) = interface_chains(rigid_bodies(tower, ring))
     assert chain[0] == chain[-1]
     assert sorted(chain[1:].tolist()) == [0, 1, 2]

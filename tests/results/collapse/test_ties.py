@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from mbla.assembly.assembly import Assembly
 from mbla.contacts import find_contacts
 from mbla.results.collapse.collapse import collapse_of
 from mbla.results.collapse.mechanics import reactions_of
@@ -46,7 +47,7 @@ def test_fill_is_at_a_limit_and_no_tie(case: int, state: TieState, count: tuple[
     (row,) = tie_rows(model, mechanics)
     assert row.state is state
     contacts = find_contacts(model, line_of(WEDGE.format(cohesion=0.0)).deck.contacts)
-    collapse = collapse_of(model, contacts, result.load_case, mechanics)
+    collapse = collapse_of(Assembly(model, contacts), result.load_case, mechanics)
     assert (collapse.yielding, collapse.soil) == (0, count)
     (soil,) = (
         each for each in reactions_of(model, contacts, result.load_case, mechanics) if each.support == "fill on faces"

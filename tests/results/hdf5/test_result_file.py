@@ -70,7 +70,7 @@ def test_ragged_reports_come_back(tmp_path: Path, results: Results) -> None:
         sliver_widths=np.array([1e-4]),
         isolated=np.array([2]),
     )
-    changed = replace(results, contacts=replace(results.contacts, report=report))
+    changed = replace(results, assembly=replace(results.assembly, contacts=replace(results.contacts, report=report)))
     path = tmp_path / "ragged.h5"
     path.write_bytes(write_results_hdf5(changed))
     assert same(read_results_hdf5(path), changed)
@@ -83,7 +83,9 @@ def test_ragged_reports_come_back(tmp_path: Path, results: Results) -> None:
 def test_results_that_contradict_themselves_are_not_written(gaps: Any, words: str) -> None:
     results = tower_results()
     with pytest.raises(AssertionError, match=words):
-        write_results_hdf5(replace(results, contacts=replace(results.contacts, gaps=gaps)))
+        write_results_hdf5(
+            replace(results, assembly=replace(results.assembly, contacts=replace(results.contacts, gaps=gaps)))
+        )
 
 
 def test_what_the_layout_does_not_have_is_not_written(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -83,7 +83,13 @@ def test_single_letters_stay_apart(path: Path) -> None:
     """netCDF joins arrays of one byte each to words."""
     results = full_results()
     tons = path.with_name("tons.h5")
-    tons.write_bytes(write_results_hdf5(replace(results, model=replace(results.model, units=Units("m", "N", "t")))))
+    tons.write_bytes(
+        write_results_hdf5(
+            replace(
+                results, assembly=replace(results.assembly, model=replace(results.model, units=Units("m", "N", "t")))
+            )
+        )
+    )
     with xarray.open_dataset(tons, group="model", engine="h5netcdf") as data:
         assert data.units.values.tolist() == ["m", "N", "t"]
 

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
+from mbla.assembly.assembly import Assembly
 from mbla.contacts.contacts import Contacts
 from mbla.results.collapse.collapse import collapse_of, failure_of
 from mbla.results.listing.mechanism_words import failure_sentences, mechanism_lines, mechanism_summary
@@ -25,7 +26,7 @@ def sentences(case: int, *overrides: str) -> list[str]:
     line = line_of_file(WALL, *overrides, case=case)
     mechanics = verified(line)[0].mechanics
     assert mechanics is not None
-    collapse = collapse_of(line.model, line.contacts, line.load_case, mechanics)
+    collapse = collapse_of(line.assembly, line.load_case, mechanics)
     failure = failure_of(line.model, line.contacts, collapse, mechanics)
     return failure_sentences(line.model, line.load_case, collapse, failure)
 
@@ -48,7 +49,7 @@ def test_a_mechanism_in_which_nothing_moves_is_told_in_one_sentence() -> None:
         contact_velocities=np.zeros((8, 3)),
         modes=np.zeros(8, dtype=np.int64),
     )
-    collapse = collapse_of(MODEL, contacts, CASE, still)
+    collapse = collapse_of(Assembly(MODEL, contacts), CASE, still)
     failure = failure_of(MODEL, contacts, collapse, still)
     assert failure_sentences(MODEL, CASE, collapse, failure) == ["No block moves."]
 
@@ -71,12 +72,13 @@ def sliding_brick() -> Mechanics:
 
 
 def tables(contacts: Contacts, mechanics: Mechanics) -> str:
-    collapse = collapse_of(MODEL, contacts, CASE, mechanics)
-    return words(mechanism_lines(MODEL, contacts, failure_of(MODEL, contacts, collapse, mechanics)))
+    assembly = Assembly(MODEL, contacts)
+    collapse = collapse_of(assembly, CASE, mechanics)
+    return words(mechanism_lines(assembly, CASE, failure_of(MODEL, contacts, collapse, mechanics)))
 
 
 def summary(contacts: Contacts, mechanics: Mechanics) -> str:
-    collapse = collapse_of(MODEL, contacts, CASE, mechanics)
+    collapse = collapse_of(Assembly(MODEL, contacts), CASE, mechanics)
     return mechanism_summary(MODEL, collapse, failure_of(MODEL, contacts, collapse, mechanics))
 
 
@@ -104,9 +106,10 @@ def test_long_lists_start_with_what_moves_most_and_say_what_they_leave_out() -> 
         modes=np.full(4 * (n - 1), ContactMode.SLIDE),
     )
     case = replace(CASE, dead_load=np.zeros((n, 6)), live_load=np.ones((n, 6)))
-    collapse = collapse_of(model, contacts, case, mechanics)
+    assembly = Assembly(model, contacts)
+    collapse = collapse_of(assembly, case, mechanics)
     failure = failure_of(model, contacts, collapse, mechanics)
-    lines = mechanism_lines(model, contacts, failure)
+    lines = mechanism_lines(assembly, case, failure)
     assert max(map(len, lines)) <= WIDTH
     start = next(i for i, line in enumerate(lines) if line.startswith("  sliding planes"))
     table = lines[start + 1 :]

@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from mbla.assembly.assembly import Assembly
 from mbla.errors import Message
 from mbla.model.model import Settlement, Tilt
 from mbla.results.listing.history_words import path_words
@@ -139,7 +140,7 @@ def texts() -> Iterator[tuple[str, list[str]]]:
 
 def case_text(made: CaseResult) -> list[str]:
     """Sections of a case that say something else for it, and its summary."""
-    sections = case_sections(MODEL, RESULTS.contacts, made)
+    sections = case_sections(Assembly(MODEL, RESULTS.contacts), made)
     lines = [line for each in sections if each.title in SHOWN for line in each.lines]
     return [*lines, "summary:", *summary_lines(replace(RESULTS, cases=(made,)))[2:]]
 

@@ -87,6 +87,6 @@ def test_no_name_is_markup(drawn: list[str]) -> None:
     results = tower_results()
     model = replace(results.model, title="<script>alert(1)</script>")
     case = replace(results.cases[0], load_case=replace(results.cases[0].load_case, name="<b>"))
-    html = shown(Run(replace(results, model=model, cases=(case,))))["text/html"]
+    html = shown(Run(replace(results, assembly=replace(results.assembly, model=model), cases=(case,))))["text/html"]
     assert "<script>" not in html
     assert "<b>" not in html

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from mbla.assembly.assembly import Assembly
 from mbla.results.results import Results
 from tests.results.synthetic import cuboids, horizontal_contacts, tower_mechanics, tower_results
 
@@ -34,7 +35,7 @@ def row_of_blocks(count: int) -> Results:
         load_cases=(load_case,),
     )
     case = replace(results.cases[0], load_case=load_case, solution=solution)
-    return replace(results, model=model, contacts=contacts, cases=(case,))
+    return replace(results, assembly=Assembly(model, contacts), cases=(case,))
 
 
 def column_of_blocks(*right: float) -> Results:
@@ -58,4 +59,4 @@ def column_of_blocks(*right: float) -> Results:
     model = replace(results.model, blocks=blocks, fixed=np.arange(count + 1) == 0, grounds=(), load_cases=(load_case,))
     solution = replace(results.cases[0].solution, mechanics=mechanics)
     case = replace(results.cases[0], load_case=load_case, solution=solution)
-    return replace(results, model=model, contacts=contacts, cases=(case,))
+    return replace(results, assembly=Assembly(model, contacts), cases=(case,))

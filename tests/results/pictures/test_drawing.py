@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 from mbla.arrays import FloatArray
+from mbla.assembly.assembly import Assembly
 from mbla.results.pictures.camera import axes_of, fitted, view_of_case
 from mbla.results.pictures.drawing import drawing_of
 from mbla.results.pictures.marks import segments
@@ -112,7 +113,11 @@ def test_what_is_no_result_looks_so(tmp_path: Path, kind: str, status: Status, w
 def test_settlement_and_guides(tmp_path: Path) -> None:
     results = tower_results()
     model = full_model(results.model)
-    results = replace(results, model=model, cases=(replace(results.cases[0], load_case=model.load_cases[0]),))
+    results = replace(
+        results,
+        assembly=replace(results.assembly, model=model),
+        cases=(replace(results.cases[0], load_case=model.load_cases[0]),),
+    )
     texts, _ = drawn(tmp_path, "mechanism", results)
     assert {"guided", "settlement of 1 block"} <= set(texts)
 
@@ -137,7 +142,7 @@ def moved(factor: float, shift: float) -> Results:
         contacts, points=factor * contacts.points + offset, centroids=factor * contacts.centroids + offset
     )
     model = replace(model, blocks=blocks, grounds=grounds)
-    return replace(results, model=model, contacts=contacts, cases=(replace(case, solution=solution),))
+    return replace(results, assembly=Assembly(model, contacts), cases=(replace(case, solution=solution),))
 
 
 def test_far_from_the_origin_and_in_other_units_the_figure_is_the_same(tmp_path: Path) -> None:
@@ -166,8 +171,9 @@ def test_few_parts_and_groups_are_named_by_their_colours(count: int) -> None:
 def test_ground_is_drawn_and_named_where_something_stands_on_it() -> None:
     results = tower_results()
     assert ("ground", SLAB) in drawing_of(scene(results), "mechanism").legend
-    bare = replace(results, model=replace(results.model, grounds=results.model.grounds[:0]))
-    bare = replace(bare, contacts=replace(bare.contacts, bodies=np.minimum(bare.contacts.bodies, 2)))
+    model = replace(results.model, grounds=results.model.grounds[:0])
+    contacts = replace(results.contacts, bodies=np.minimum(results.contacts.bodies, 2))
+    bare = replace(results, assembly=Assembly(model, contacts))
     assert ("ground", SLAB) not in drawing_of(scene(bare), "model").legend
 
 
@@ -211,12 +217,15 @@ def test_the_view_faces_the_side_towards_which_the_structure_goes(push: float, s
     blocks = replace(results.model.blocks, vertices=vertices, centroids=results.model.blocks.centroids * [1, 5, 1])
     solution = replace(results.cases[0].solution, mechanics=replace(mechanics_of(results), mechanism=mechanism))
     case = replace(results.cases[0], solution=solution)
-    wide = replace(results, model=replace(results.model, blocks=blocks), cases=(case,))
+    wide = replace(
+        results, assembly=replace(results.assembly, model=replace(results.model, blocks=blocks)), cases=(case,)
+    )
     azimuth, elevation = view_of_case(scene(wide))
     assert elevation > 0
     assert np.sign(np.cos(np.deg2rad(azimuth))) == side
     thin = replace(blocks, vertices=blocks.vertices * [1, 0.01, 1], centroids=blocks.centroids * [1, 0.01, 1])
-    slim = replace(tower_results(), model=replace(tower_results().model, blocks=thin))
+    slim = tower_results()
+    slim = replace(slim, assembly=replace(slim.assembly, model=replace(slim.model, blocks=thin)))
     assert view_of_case(scene(slim)) == (-90.0, 0.0)
 
 

@@ -87,7 +87,7 @@ def test_masses_that_blocks_carry_along_make_no_moment() -> None:
     loads = np.zeros((3, 6))
     loads[:, 2] = -G * blocks.masses
     loads[:, 3:] = np.cross(np.full((3, 3), 0.3), np.outer(blocks.added_masses, [0, 0, -G]))
-    heavy = scene(replace(results, model=replace(results.model, blocks=blocks)))
+    heavy = scene(replace(results, assembly=replace(results.assembly, model=replace(results.model, blocks=blocks))))
     assert len(marks_of_load(heavy, "", LIVE_LOAD, loads, GRAVITY)) == 1
 
 

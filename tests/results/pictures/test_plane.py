@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from mbla.assembly.assembly import Assembly
 from mbla.results.pictures.options import VIEWS, PictureOptions
 from mbla.results.pictures.plane import Flat, face_polygons, flat_of, seen_edges
 from mbla.results.pictures.scene import Scene, scene_of
@@ -37,7 +38,12 @@ def with_live_load(live: Any) -> Scene:
 
 def with_blocks(lower: Any, upper: Any) -> Scene:
     results = tower_results()
-    return scene(replace(results, model=replace(results.model, blocks=cuboids(lower, upper, "abc"))))
+    return scene(
+        replace(
+            results,
+            assembly=replace(results.assembly, model=replace(results.model, blocks=cuboids(lower, upper, "abc"))),
+        )
+    )
 
 
 def test_tower_is_seen_from_the_front_or_from_behind() -> None:
@@ -74,7 +80,13 @@ def test_sloping_face_across_needs_space() -> None:
     normals = results.model.blocks.face_normals.copy()
     normals[8] = [0, -0.8, 0.6]
     blocks = replace(results.model.blocks, face_normals=normals)
-    assert flat_of(scene(replace(results, model=replace(results.model, blocks=blocks))), None) is None
+    assert (
+        flat_of(
+            scene(replace(results, assembly=replace(results.assembly, model=replace(results.model, blocks=blocks)))),
+            None,
+        )
+        is None
+    )
 
 
 def test_a_turned_structure_is_seen_along_its_own_normal() -> None:
@@ -97,8 +109,10 @@ def test_a_turned_structure_is_seen_along_its_own_normal() -> None:
     assert mechanics is not None
     turned = replace(
         results,
-        model=replace(model, blocks=blocks, grounds=model.grounds[:1]),
-        contacts=replace(contacts, points=contacts.points @ rotation.T, centroids=contacts.centroids @ rotation.T),
+        assembly=Assembly(
+            replace(model, blocks=blocks, grounds=model.grounds[:1]),
+            replace(contacts, points=contacts.points @ rotation.T, centroids=contacts.centroids @ rotation.T),
+        ),
     )
     loads = {"dead_load": both(case.load_case.dead_load), "live_load": both(case.load_case.live_load)}
     load_case = replace(case.load_case, **loads)

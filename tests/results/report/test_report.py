@@ -98,7 +98,7 @@ def test_listing_and_report_say_the_same(results: Results) -> None:
     page = page_of(results)
     for i, case in enumerate(results.cases):
         owner = page.one("section", id=f"case-{i + 1}")
-        for section in case_sections(results.model, results.contacts, case):
+        for section in case_sections(results.assembly, case):
             said(page, owner, section.lines)
     model = page.one("section", id="model")
     said(page, model, [*model_lines(results.model)[3:], *contact_lines(results.model, results.contacts)])
@@ -141,7 +141,7 @@ def test_text_from_elsewhere_stays_text() -> None:
     solution = replace(first.solution, reason=EVIL, remarks=(Message("solver-remark", EVIL),))
     results = replace(
         results,
-        model=model,
+        assembly=replace(results.assembly, model=model),
         cases=(replace(first, solution=solution), *results.cases[1:]),
         deck=replace(results.deck, name=EVIL, sources=((EVIL, EVIL + "</pre>"),), overrides=(EVIL,)),
         notices=(Notice("warning", "near-miss", EVIL),),

@@ -35,7 +35,9 @@ def evil_results() -> Results:
     results = tower_results()
     blocks = replace(results.model.blocks, groups=(EVIL, "tower" * 30, "brick"))
     deck = replace(results.deck, sources=(("tower.yaml", f"# {EVIL}\n" + "x" * 400),))
-    return replace(results, model=replace(results.model, title=EVIL, blocks=blocks), deck=deck)
+    return replace(
+        results, assembly=replace(results.assembly, model=replace(results.model, title=EVIL, blocks=blocks)), deck=deck
+    )
 
 
 @pytest.fixture(scope="module")

@@ -27,7 +27,8 @@ def results() -> Results:
     full = full_results()
     message = 'says "no",\nsays µ, ends; = 1'
     notices = tuple(replace(notice, message=message) for notice in full.notices)
-    return replace(full, model=replace(full.model, units=Units("mm", "kN", "t")), notices=notices)
+    assembly = replace(full.assembly, model=replace(full.model, units=Units("mm", "kN", "t")))
+    return replace(full, assembly=assembly, notices=notices)
 
 
 @pytest.fixture(scope="module")

@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from mbla.assembly.assembly import Assembly
 from mbla.model.solids.blocks import Blocks
 from mbla.results.pictures.options import PictureOptions
 from mbla.results.pictures.page import HINGE
@@ -140,7 +141,7 @@ def test_far_from_the_origin_coordinates_keep_their_digits() -> None:
         centroids=results.contacts.centroids + shift,
         bodies=np.array([[0, 1], [0, 2]]),
     )
-    found = scene(replace(results, model=model, contacts=contacts))
+    found = scene(replace(results, assembly=Assembly(model, contacts)))
     assert np.abs(np.array(found["offset"]) - shift).max() < 10
     vertices = read(found["vertices"], 3) + np.array(found["offset"])
     np.testing.assert_allclose(vertices, model.blocks.vertices, atol=1e-5)
@@ -152,7 +153,7 @@ def test_far_from_the_origin_coordinates_keep_their_digits() -> None:
 def test_names_are_no_markup() -> None:
     results = tower_results()
     blocks = replace(results.model.blocks, groups=("base", "<b>&", "brick"))
-    found = scene(replace(results, model=replace(results.model, blocks=blocks)))
+    found = scene(replace(results, assembly=replace(results.assembly, model=replace(results.model, blocks=blocks))))
     assert found["texts"][1].startswith("&lt;b&gt;&amp;[0]<br>")
     assert "&lt;b&gt;&amp;[0]" in marks(found)["hinge"]["texts"][0]
 
@@ -170,7 +171,7 @@ def test_of_many_parts_the_first_are_named_and_the_others_counted() -> None:
 def test_blocks_that_touch_nothing_have_no_marks() -> None:
     """What falls is shown all the same."""
     results = tower_results()
-    apart = replace(results, contacts=without_contacts(results.contacts))
+    apart = replace(results, assembly=replace(results.assembly, contacts=without_contacts(results.contacts)))
     found = scene_of(apart, apart.cases[1])
     assert list(marks(found)) == ["live load"]
     assert found["motion"] is not None

@@ -38,7 +38,9 @@ def test_no_text_of_a_deck_is_markup(results: Results) -> None:
     evil = "</script><script>alert(1)</script>"
     blocks = replace(results.model.blocks, groups=("base", evil, "brick"))
     model = replace(results.model, title=evil, blocks=blocks)
-    text = page_html(replace(results, model=model), results.cases[0]).replace(library_html(), "")
+    text = page_html(replace(results, assembly=replace(results.assembly, model=model)), results.cases[0]).replace(
+        library_html(), ""
+    )
     assert "alert(1)</script>" not in text
     assert text.count("<script>") == 1
 

@@ -224,7 +224,7 @@ def test_what_a_case_does_not_have_is_not_written() -> None:
     assert falls.torsion_use is None
     assert thrust_mesh(falls) is None
     assert hinges_mesh(falls) is None
-    assert Scene(results.model, results.contacts, None).torsion_use is None
+    assert Scene(results.assembly, None).torsion_use is None
 
 
 def test_forces_that_lock_leave_guides_the_live_load_alone() -> None:
@@ -236,7 +236,9 @@ def test_forces_that_lock_leave_guides_the_live_load_alone() -> None:
     solution = replace(case.solution, mechanics=None, status=Status.UNBOUNDED, lock=0 * forces)
     load_case = replace(case.load_case, settlement=None)
     locked = replace(case, load_case=load_case, solution=solution, status=Status.UNBOUNDED)
-    results = replace(results, model=replace(model, load_cases=(load_case,)), cases=(locked,))
+    results = replace(
+        results, assembly=replace(results.assembly, model=replace(model, load_cases=(load_case,))), cases=(locked,)
+    )
     (guide,) = (each for each in load_vectors(scene_of(results, locked)) if each.kind == GUIDE)
     assert guide.forces == pytest.approx(-load_case.live_load[model.guides.blocks, :3])
 
@@ -246,7 +248,7 @@ def test_supports_have_a_file_where_there_are_any(tmp_path: Path, held: bool) ->
     """Blocks on the ground, and the same with nothing below them."""
     results = row_of_blocks(2)
     if not held:
-        results = replace(results, contacts=without_contacts(results.contacts))
+        results = replace(results, assembly=replace(results.assembly, contacts=without_contacts(results.contacts)))
     with OutputFolder(tmp_path, "row") as out:
         write_model_vtu(results, out)
     names = {path.name for path in tmp_path.glob("*.vtu")}

@@ -193,7 +193,11 @@ def test_forces_that_are_no_result_say_so(tmp_path: Path, results: Results) -> N
 def test_titles_cannot_break_the_script(tmp_path: Path, results: Results, monkeypatch: pytest.MonkeyPatch) -> None:
     model = replace(results.model, title="\"\"\"\n''' \\ {} RESULT: dict[str, Any] = {}")
     write_outputs(
-        replace(results, model=model), tmp_path, "tower", False, OutputSection(vtu=True, frames=2, plots=False)
+        replace(results, assembly=replace(results.assembly, model=model)),
+        tmp_path,
+        "tower",
+        False,
+        OutputSection(vtu=True, frames=2, plots=False),
     )
     assert run_script(tmp_path / "tower_paraview.py", monkeypatch, "--save", str(tmp_path / "png"))
 

@@ -9,6 +9,7 @@ import meshio
 import numpy as np
 import pytest
 
+from mbla.assembly.assembly import Assembly
 from mbla.model.solids.blocks import labels_of
 from mbla.results.collapse.interface_modes import InterfaceMode
 from mbla.results.collapse.motion import SHARE_OF_SIZE, drawn_motion, movable_size, moved_vertices
@@ -38,7 +39,7 @@ def path(tmp_path: Path) -> Path:
 
 
 def test_blocks(path: Path, results: Results) -> None:
-    written(path, blocks_mesh(Scene(results.model, results.contacts, results.cases[0])))
+    written(path, blocks_mesh(Scene(results.assembly, results.cases[0])))
     for points, displacement, cells, data in (by_meshio(path), by_vtk(path)):
         assert points == pytest.approx(results.model.blocks.vertices)
         assert cells == 3
@@ -72,7 +73,7 @@ def by_vtk(path: Path) -> Any:
 
 
 def test_contact_forces_carry_the_weights(path: Path, results: Results) -> None:
-    written(path, contacts_mesh(Scene(results.model, results.contacts, results.cases[0])))
+    written(path, contacts_mesh(Scene(results.assembly, results.cases[0])))
     mesh, grid = meshio.read(path), read_vtk(path)
     assert [(cells.type, len(cells)) for cells in mesh.cells] == [("vertex", 8)]
     assert grid.GetNumberOfCells() == 8
@@ -89,7 +90,7 @@ def test_contact_forces_carry_the_weights(path: Path, results: Results) -> None:
 
 
 def test_interfaces(path: Path, results: Results) -> None:
-    written(path, interfaces_mesh(Scene(results.model, results.contacts, results.cases[0])))
+    written(path, interfaces_mesh(Scene(results.assembly, results.cases[0])))
     mesh, grid = meshio.read(path), read_vtk(path)
     data = {name: np.concatenate(values) for name, values in mesh.cell_data.items()}
     assert grid.GetNumberOfCells() == 2
@@ -107,7 +108,7 @@ def test_interfaces(path: Path, results: Results) -> None:
 def test_interfaces_with_different_numbers_of_corners(path: Path, results: Results) -> None:
     """The second loses a corner; a corner that bounds a hole is not part of the outline."""
     contacts = replace(results.contacts, outline=np.array([4, 3]))
-    written(path, interfaces_mesh(Scene(results.model, contacts, results.cases[0])))
+    written(path, interfaces_mesh(Scene(Assembly(results.model, contacts), results.cases[0])))
     grid = read_vtk(path)
     corners = [grid.GetCell(i).GetNumberOfPoints() for i in range(2)]
     assert corners == [3, 4]
@@ -115,11 +116,11 @@ def test_interfaces_with_different_numbers_of_corners(path: Path, results: Resul
 
 
 def test_case_without_mechanism_shows_the_model_and_what_falls(path: Path, results: Results) -> None:
-    written(path, contacts_mesh(Scene(results.model, results.contacts, results.cases[1])))
+    written(path, contacts_mesh(Scene(results.assembly, results.cases[1])))
     assert "global_forces" not in meshio.read(path).point_data
-    written(path, interfaces_mesh(Scene(results.model, results.contacts, results.cases[1])))
+    written(path, interfaces_mesh(Scene(results.assembly, results.cases[1])))
     assert "modes" not in meshio.read(path).cell_data
-    written(path, blocks_mesh(Scene(results.model, results.contacts, results.cases[1])))
+    written(path, blocks_mesh(Scene(results.assembly, results.cases[1])))
     mesh = meshio.read(path)
     assert mesh.point_data["displacement"][8:16, 2].max() < 0
     assert np.concatenate(mesh.cell_data["parts"]).tolist() == [0, 1, 0]
@@ -130,11 +131,11 @@ def test_forces_that_lock_a_structure_are_shown_where_there_is_no_load_factor(pa
     lock[:4] = [2.0, -1.0, 0.0]
     solution = replace(results.cases[0].solution, mechanics=None, lock=lock)
     case = replace(results.cases[0], solution=solution, status=Status.UNBOUNDED)
-    written(path, contacts_mesh(Scene(results.model, results.contacts, case)))
+    written(path, contacts_mesh(Scene(results.assembly, case)))
     data = meshio.read(path).point_data
     assert data["global_forces"][:4].sum(axis=0) == pytest.approx([-4, 0, 8])
     assert "modes" not in data
-    written(path, interfaces_mesh(Scene(results.model, results.contacts, case)))
+    written(path, interfaces_mesh(Scene(results.assembly, case)))
     cells = {name: np.concatenate(values) for name, values in meshio.read(path).cell_data.items()}
     assert cells["normal_forces"] == pytest.approx([8, 0])
     assert "modes" not in cells
@@ -143,7 +144,7 @@ def test_forces_that_lock_a_structure_are_shown_where_there_is_no_load_factor(pa
 def test_labels_of_items_are_cell_data(path: Path, results: Results) -> None:
     labels = labels_of(3, ("", "pier", "lintel"), {"course": np.array([0, 1, -1])})
     blocks = replace(results.model.blocks, labels=labels)
-    written(path, blocks_mesh(Scene(replace(results.model, blocks=blocks), results.contacts, None)))
+    written(path, blocks_mesh(Scene(Assembly(replace(results.model, blocks=blocks), results.contacts), None)))
     data = {name: np.concatenate(values).tolist() for name, values in meshio.read(path).cell_data.items()}
     assert data["members"] == [0, 2, 1]
     assert data["course"] == [0, 1, -1]

@@ -61,7 +61,7 @@ def failures(line: Line, program: Program, velocities: FloatArray) -> tuple[str,
         iterations=(),
         seconds=0.0,
     )
-    return verify(line.model, line.contacts, line.load_case, solution).failures
+    return verify(line.assembly, line.load_case, solution).failures
 
 
 @pytest.mark.parametrize("structure", FALLING, ids=lambda structure: structure.name)

@@ -9,9 +9,7 @@ from tempfile import TemporaryDirectory
 import numpy as np
 
 from mbla.arrays import FloatArray
-from mbla.contacts.findings import contacts_of
-from mbla.contacts.glue import held_model, solids_of
-from mbla.contacts.tied import tied
+from mbla.assembly import build_assembly
 from mbla.deck import read_deck
 from mbla.model import build_model
 from mbla.model.model import LoadCase, select_cases
@@ -122,9 +120,7 @@ def case_of(deck: Path | str, name: str, *overrides: str, live: FloatArray | Non
             path.write_text(deck, encoding="utf-8")
         read = read_deck(path, ("analysis.flow_rule=non_associative", *overrides))
         model = build_model(read)
-    contacts = contacts_of(read, model)
-    model, settings = held_model(model, contacts), replace(solver_settings(read.analysis), tolerance=1e-8)
+    assembly, settings = build_assembly(read, model), replace(solver_settings(read.analysis), tolerance=1e-8)
     (case,) = select_cases(model, [name])
-    case = posed(model, contacts, case, settings) if live is None else replace(case, live_load=live)
-    solids = tied(solids_of(model.of_case(case), contacts, case))
-    return Case(case, build_program(solids, case, settings.analysis).reduced.parts, settings)
+    case = posed(assembly, case, settings) if live is None else replace(case, live_load=live)
+    return Case(case, build_program(assembly, case, settings.analysis).reduced.parts, settings)

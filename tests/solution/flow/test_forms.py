@@ -40,7 +40,7 @@ def turned(program: Program, seed: int) -> Program:
         dead_load=program.dead_load[rows],
         live_load=program.live_load[rows],
         limits=type(program.limits)(**{name: values[points] for name, values in vars(program.limits).items()}),
-        areas=shares_of(program)[points],
+        facts=replace(program.facts, areas=shares_of(program)[points]),
         reduction=None,
     )
 

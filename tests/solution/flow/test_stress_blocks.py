@@ -10,9 +10,8 @@ import pytest
 import shapely
 import yaml
 
+from mbla.assembly.assembly import Assembly
 from mbla.contacts import find_contacts
-from mbla.contacts.glue import solids_of
-from mbla.contacts.tied import tied
 from mbla.deck import read_deck
 from mbla.model import build_model
 from mbla.model.model import select_cases
@@ -153,10 +152,10 @@ def test_ties_beside_stress_blocks() -> None:
     deck = read_deck(path, ("analysis.solver=mbla", "joints.dry.compressive_strength=1e5"))
     model = build_model(deck)
     (case,) = select_cases(model, ["push"])
-    solids = tied(solids_of(model, find_contacts(model, deck.contacts), case))
-    program = assemble(solids.model, solids.contacts, solids.load_case(case))
+    bodies = Assembly(model, find_contacts(model, deck.contacts)).of(case)
+    program = assemble(bodies.model, bodies.contacts, bodies.load_case(case))
     weight, full, rods = 15696.0, 1e5 * 0.4, math.pi / 4 * 0.012**2 * 235e6
     expected = (weight * 0.2 * (1 - weight / full) + rods * 1.8 + 5000.0 * 1.0) / weight
-    interfaces = Interfaces(CrushingInterfaces.of(solids.model, solids.contacts))
+    interfaces = Interfaces(CrushingInterfaces.of(bodies.model, bodies.contacts))
     found = path_by(program, expected / program.scaling.live, DEFAULT, interfaces=interfaces)
     assert program.scaling.live * found.load_factor == pytest.approx(expected, rel=CLOSE)

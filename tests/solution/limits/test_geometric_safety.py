@@ -11,8 +11,7 @@ import numpy as np
 import pytest
 
 import mbla
-from mbla.contacts import Contacts
-from mbla.model import Model
+from mbla.assembly.assembly import Assembly
 from mbla.results.hdf5.result_file import read_results_hdf5, write_results_hdf5
 from mbla.results.listing.geometric_safety import geometric_safety_lines
 from mbla.results.outcome import case_notices
@@ -22,7 +21,7 @@ from mbla.solution.limits.geometric_safety import proved
 from mbla.solution.solution import GeometricSafety, Status
 from tests.analytic.test_least_thickness import deck_text
 from tests.decks.folder import ROOT
-from tests.line import BLOCK, case_of
+from tests.line import BLOCK, case_of, cases_of
 
 NEAR = 2e-6
 SAFE = BLOCK.replace("flow_rule: associative", "flow_rule: associative, geometric_safety: true")
@@ -129,21 +128,19 @@ def test_what_has_none_says_so(text: str, overrides: tuple[str, ...], words: str
 
 
 @pytest.fixture(scope="module")
-def leaning() -> tuple[Model, Contacts, CaseResult]:
-    model, case = case_of(LEANING)
-    return model, mbla.run(LEANING).contacts, case
+def leaning() -> tuple[Assembly, CaseResult]:
+    assembly, (case,) = cases_of(LEANING)
+    return assembly, case
 
 
-def test_a_factor_that_is_too_large_is_not_proved(leaning: tuple[Model, Contacts, CaseResult]) -> None:
-    model, contacts, case = leaning
+def test_a_factor_that_is_too_large_is_not_proved(leaning: tuple[Assembly, CaseResult]) -> None:
+    assembly, case = leaning
     found = case.solution.geometric_safety
     assert found is not None
-    assert proved(model, contacts, case.load_case, found)
-    assert not proved(model, contacts, case.load_case, replace(found, sizes=0.999 * found.sizes))
-    assert not proved(model, contacts, case.load_case, replace(found, sizes=1.001 * found.sizes))
-    assert not proved(
-        model, contacts, case.load_case, replace(found, forces=1.001 * found.forces, sizes=found.sizes - 1e-3)
-    )
+    assert proved(assembly, case.load_case, found)
+    assert not proved(assembly, case.load_case, replace(found, sizes=0.999 * found.sizes))
+    assert not proved(assembly, case.load_case, replace(found, sizes=1.001 * found.sizes))
+    assert not proved(assembly, case.load_case, replace(found, forces=1.001 * found.forces, sizes=found.sizes - 1e-3))
 
 
 @pytest.mark.parametrize(
@@ -161,12 +158,12 @@ def test_a_factor_that_is_too_large_is_not_proved(leaning: tuple[Model, Contacts
     ids=["ends far apart", "pressed", "load factors", "no load factors", "no end that falls"],
 )
 def test_what_does_not_belong_to_its_proof_is_not_proved(
-    forged: Callable[[GeometricSafety], GeometricSafety], leaning: tuple[Model, Contacts, CaseResult]
+    forged: Callable[[GeometricSafety], GeometricSafety], leaning: tuple[Assembly, CaseResult]
 ) -> None:
-    model, contacts, case = leaning
+    assembly, case = leaning
     found = case.solution.geometric_safety
     assert found is not None
-    assert not proved(model, contacts, case.load_case, forged(found))
+    assert not proved(assembly, case.load_case, forged(found))
 
 
 def test_result_files_keep_it_and_verify_proves_it_again(tmp_path: Path) -> None:

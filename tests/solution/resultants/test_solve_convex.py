@@ -189,7 +189,7 @@ def test_dead_load_that_twists_too_much_is_not_carried() -> None:
     assert solution.status is Status.NO_EQUILIBRIUM
     assert checks.verified, checks.failures
     weaker = replace(solution, certificate_motions=None)
-    assert not verify(line.model, line.contacts, line.load_case, weaker).verified
+    assert not verify(line.assembly, line.load_case, weaker).verified
 
 
 def test_load_that_only_presses_is_unbounded_with_proof() -> None:
@@ -199,7 +199,7 @@ def test_load_that_only_presses_is_unbounded_with_proof() -> None:
     assert checks.verified, checks.failures
     assert solution.lock is not None
     pushed = replace(solution, lock=solution.lock + np.array([0.0, 0.0, 100.0]))
-    assert not verify(line.model, line.contacts, line.load_case, pushed).verified
+    assert not verify(line.assembly, line.load_case, pushed).verified
 
 
 # --- without dilatancy ----------------------------------------------------------------------------------------------

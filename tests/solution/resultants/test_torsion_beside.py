@@ -8,8 +8,6 @@ from functools import cache
 import numpy as np
 import pytest
 
-from mbla.contacts.glue import solids_of
-from mbla.contacts.tied import tied
 from mbla.program.build import build_program
 from mbla.solution.settings import solver_settings
 from mbla.solution.solution import Checks, Mechanics, Solution
@@ -24,8 +22,7 @@ SQUARE = (np.sqrt(2) + np.log(1 + np.sqrt(2))) / 6
 def by_points(line: Line, **analysis: object) -> Solution:
     """Without dilatancy, by contact points."""
     own = line.deck.analysis.model_copy(update={"flow_rule": "non_associative", "contact_model": "concave", **analysis})
-    solids = tied(solids_of(line.model, line.contacts, line.load_case))
-    return solve(build_program(solids, line.load_case, own), solver_settings(own))
+    return solve(build_program(line.assembly, line.load_case, own), solver_settings(own))
 
 
 @cache
@@ -38,7 +35,7 @@ def twisted() -> tuple[Line, Solution]:
 def checked(torsion: Mechanics | None) -> Checks:
     """With another state with torsion in the place of that which was found."""
     line, solution = twisted()
-    return verify(line.model, line.contacts, line.load_case, replace(solution, torsion=torsion))
+    return verify(line.assembly, line.load_case, replace(solution, torsion=torsion))
 
 
 def test_corners_overstate_what_a_square_resists() -> None:
@@ -118,9 +115,9 @@ def test_interfaces_that_crush_are_verified_with_what_they_had_crushed_before() 
     mechanics = solution.mechanics
     assert mechanics is not None
     assert mechanics.crushed is not None
-    assert verify(line.model, line.contacts, line.load_case, solution).verified
+    assert verify(line.assembly, line.load_case, solution).verified
     other = replace(solution, mechanics=replace(mechanics, crushed=-mechanics.crushed))
-    assert not verify(line.model, line.contacts, line.load_case, other).verified
+    assert not verify(line.assembly, line.load_case, other).verified
 
 
 @pytest.mark.long

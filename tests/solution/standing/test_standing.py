@@ -94,7 +94,7 @@ def test_a_tall_column_leans_on_no_spring() -> None:
     """The head of 150 blocks settles by thousands of units."""
     wall = WALL.replace('length: "=0.4*n", courses: "=n"', "length: 0.4, courses: 150, bond: stack")
     program = line_of(wall).program
-    assert len(program.free) == 150
+    assert len(program.facts.free) == 150
     assert assess_dead_load(program, carried=True).verdict is Standing.YES
 
 

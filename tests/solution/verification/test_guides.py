@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from mbla.assembly.assembly import Assembly
 from mbla.contacts import find_contacts
 from mbla.deck import read_deck
 from mbla.model import build_model
@@ -99,12 +100,12 @@ def test_a_mechanism_against_a_guide_is_not_verified() -> None:
     contacts = find_contacts(model, deck.contacts)
     case = next(case for case in model.load_cases if case.name == "on_a_rail")
     solution = solve_parts(unreduced(assemble(model, contacts, case), contacts), solver_settings(deck.analysis))
-    assert verify(model, contacts, case, solution).verified
+    assert verify(Assembly(model, contacts), case, solution).verified
     assert solution.mechanics is not None
     mechanism = solution.mechanics.mechanism.copy()
     block = model.guides.blocks[[model.blocks.groups[b] == "on_a_rail" for b in model.guides.blocks]][0]
     mechanism[block, 1] += 1e-3 * np.abs(mechanism[block]).max()
     tampered = replace(solution, mechanics=replace(solution.mechanics, mechanism=mechanism))
-    checks = verify(model, contacts, case, tampered)
+    checks = verify(Assembly(model, contacts), case, tampered)
     assert not checks.verified
     assert checks.penetration > 5e-4

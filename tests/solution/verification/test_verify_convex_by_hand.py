@@ -547,7 +547,7 @@ NOT_WITHIN = ("the forces that should show that the structure locks do not stay 
 def test_a_lock_within_the_friction_of_the_interface(dry: Line) -> None:
     for shear, expected in ((-4.0, ()), (-4.1, NOT_WITHIN), (3.9, ())):
         lock = on_ground(dry.model, dry.contacts, (8, shear, 0))
-        assert convex_lock_failures(dry.model, dry.contacts, lock, "convex") == expected
+        assert convex_lock_failures(dry.model, dry.contacts, dry.load_case, lock, "convex") == expected
 
 
 def test_a_lock_may_be_beyond_by_a_millionth_of_its_largest_force(mortar: Line, laws: dict[str, Any]) -> None:
@@ -556,7 +556,7 @@ def test_a_lock_may_be_beyond_by_a_millionth_of_its_largest_force(mortar: Line, 
     lock[0] *= 0.5
     for share, expected in ((0.99e-6, ()), (1.01e-6, NOT_WITHIN)):
         laws["torsion_excess"] = share * math.sqrt(65.0)
-        assert convex_lock_failures(mortar.model, mortar.contacts, lock, "convex") == expected
+        assert convex_lock_failures(mortar.model, mortar.contacts, mortar.load_case, lock, "convex") == expected
     _, (given, resultants) = laws["asked"][-1]
     assert isinstance(given, InterfaceLaws)
     assert given.cohesion.tolist() == given.tension.tolist() == [0.0]
@@ -566,9 +566,9 @@ def test_a_lock_may_be_beyond_by_a_millionth_of_its_largest_force(mortar: Line, 
 
 def test_a_lock_on_what_crushes(weak: Line) -> None:
     none = np.zeros((4, 3))
-    assert convex_lock_failures(weak.model, weak.contacts, none, "convex") == ()
+    assert convex_lock_failures(weak.model, weak.contacts, weak.load_case, none, "convex") == ()
     pressed = on_ground(weak.model, weak.contacts, (8, 0, 0))
-    assert convex_lock_failures(weak.model, weak.contacts, pressed, "convex") == NOT_WITHIN
+    assert convex_lock_failures(weak.model, weak.contacts, weak.load_case, pressed, "convex") == NOT_WITHIN
 
 
 def test_one_interface_that_crushes_is_enough() -> None:
@@ -582,7 +582,7 @@ def test_one_interface_that_crushes_is_enough() -> None:
     line = line_of(text, "parameters.h=0.5")
     lock = on_ground(line.model, line.contacts, (8, 0, 0))
     assert len(line.contacts) == 2
-    assert convex_lock_failures(line.model, line.contacts, lock, "convex") == NOT_WITHIN
+    assert convex_lock_failures(line.model, line.contacts, line.load_case, lock, "convex") == NOT_WITHIN
     weak = np.isfinite(yield_limits(line.model, line.contacts).compression)
     lock[weak] = 0.0
-    assert convex_lock_failures(line.model, line.contacts, lock, "convex") == ()
+    assert convex_lock_failures(line.model, line.contacts, line.load_case, lock, "convex") == ()

@@ -119,7 +119,7 @@ def test_forces_beyond_the_torsional_strength_are_found() -> None:
     assert mechanics is not None
     assert corners is not None
     claim = replace(corners, resultants=mechanics.resultants, interface_motions=mechanics.interface_motions)
-    checks = verify(line.model, line.contacts, line.load_case, replace(solution, mechanics=claim, associative=claim))
+    checks = verify(line.assembly, line.load_case, replace(solution, mechanics=claim, associative=claim))
     assert checks.yield_violation > 0.1
     assert not checks.verified
 

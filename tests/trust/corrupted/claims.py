@@ -310,7 +310,9 @@ def _of_table(results: Results, **changes: Any) -> Results | None:
         return None
     known = {case.name: case for case in cases}
     solved = tuple(replace(case, load_case=known[case.load_case.name]) for case in results.cases)
-    return replace(results, model=replace(results.model, load_cases=cases), cases=solved)
+    return replace(
+        results, assembly=replace(results.assembly, model=replace(results.model, load_cases=cases)), cases=solved
+    )
 
 
 def _search_written(results: Results, generator: random.Random) -> Results | None:

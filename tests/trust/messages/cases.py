@@ -20,9 +20,9 @@ import numpy as np
 import pytest
 
 from mbla import api
+from mbla.assembly import build_assembly
 from mbla.cli import main
 from mbla.cli.decks import refuse_unfit_name
-from mbla.contacts.findings import contacts_of
 from mbla.deck import read_deck, validation
 from mbla.deck.content import DeckContent
 from mbla.deck.text import reader, sources
@@ -286,7 +286,7 @@ CASES |= {name: Case(identifier, calling(line)) for name, (identifier, line) in 
 def blocks_in_one_place(folder: Path, patch: Patch) -> object:
     other = "  - box: {group: block, material: stone, min: [0, 0, 0.9], max: [1, 1, 2]}\ncontacts: {joint: dry}"
     deck = read_deck(write(folder, changed("contacts: {joint: dry}", other)))
-    return contacts_of(deck, build_model(deck))
+    return build_assembly(deck, build_model(deck))
 
 
 @brings("more-faults")

@@ -5,8 +5,8 @@ strut's is its compression), between two limits; it gets longer where that point
 crushes at its capacity and has no tensile strength, in every flow rule, contact model and reduction.
 
 The contact point lies amid the points of the tie, its normal along the line between its first and last one. What the
-force of a tie that passes other points does besides is added as further forces (``TieContacts``). A force that it has
-at all times, such as prestress, is a dead load, of which N is what it differs: a load factor does not change with it.
+force of a tie that passes other points does besides is added as further forces (``TieContacts``). Prestress is a dead
+load, and N is the change from it: a load factor does not change with it.
 """
 
 from __future__ import annotations
@@ -16,8 +16,8 @@ from dataclasses import replace
 import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray, starts, summed
+from mbla.assembly.rigid_bodies import RigidBodies
 from mbla.contacts.contacts import Contacts, TieContacts
-from mbla.contacts.glue import Solids
 from mbla.contacts.outlines.overlay import frames_from_normals
 from mbla.model.model import Ground, Joint, Model
 from mbla.model.solids.ragged import row_means
@@ -30,23 +30,23 @@ LAW = Joint("ties", 0.0)
 """Joint law of ties, which have their own limits."""
 
 
-def tied(solids: Solids) -> Solids:
-    """Solids with the ties of their model among their contacts; the same where no tie can do anything."""
-    model, contacts = solids.model, solids.contacts
+def with_ties(bodies: RigidBodies) -> RigidBodies:
+    """Rigid bodies with the ties of their model among their contacts; the same where no tie can do anything."""
+    model, contacts = bodies.model, bodies.contacts
     if not len(model.ties):
-        return solids
-    body = np.where(model.fixed, OUTSIDE, np.arange(len(model.blocks)))[solids.label]
-    body = np.concatenate([body, [OUTSIDE] if solids.gauge is None else [len(model.blocks) - 1, OUTSIDE]])
+        return bodies
+    body = np.where(model.fixed, OUTSIDE, np.arange(len(model.blocks)))[bodies.label]
+    body = np.concatenate([body, [OUTSIDE] if bodies.load_cell is None else [len(model.blocks) - 1, OUTSIDE]])
     ties = model.ties.with_bodies(body[model.ties.bodies])
     rows = _in_use(ties)
     if not len(rows):
-        return solids
+        return bodies
     model = _with_outside(model)
     ties = ties.take(rows)
     outside = len(model.blocks) + len(model.grounds) - 1
-    bodies = np.where(ties.bodies == OUTSIDE, outside, ties.bodies)
-    pairs, points, normals = _lines(ties, bodies, len(model.blocks))
-    own = _tie_contacts(ties, rows, bodies, pairs, points, normals, len(contacts.points))
+    held = np.where(ties.bodies == OUTSIDE, outside, ties.bodies)
+    pairs, points, normals = _lines(ties, held, len(model.blocks))
+    own = _tie_contacts(ties, rows, held, pairs, points, normals, len(contacts.points))
     n, area = len(rows), float(contacts.areas.mean()) if len(contacts) else 1.0
     law = len(contacts.joint_names)
     frames = frames_from_normals(normals)
@@ -68,7 +68,8 @@ def tied(solids: Solids) -> Solids:
         ties=own,
     )
     model = replace(model, joints={**model.joints, LAW.name: LAW})
-    return replace(solids, model=model, contacts=extended, fitted=_fitted(model, extended))
+    load = _prestress_load(model, extended)
+    return replace(bodies, model=model, contacts=extended, tie_prestress_load=load)
 
 
 def _with_outside(model: Model) -> Model:
@@ -155,8 +156,8 @@ def _out_of_line(of_tie: IntArray, bodies: IntArray, arms: FloatArray, forces: F
     return np.asarray(np.bincount(pair[off, 0], minlength=len(size)) > 0)
 
 
-def _fitted(model: Model, contacts: Contacts) -> FloatArray | None:
-    """Forces and moments about centroids of ties that act as dead loads, (n_solids, 6); None where there are none."""
+def _prestress_load(model: Model, contacts: Contacts) -> FloatArray | None:
+    """Forces and moments about centroids of ties that act as dead loads, (n_bodies, 6); None where there are none."""
     own = contacts.ties
     assert own is not None  # who calls has made them
     if not own.offsets.any():

@@ -1,4 +1,4 @@
-"""The return map of the exact joint law: what it promises of every joint, its tangent, its two limits."""
+"""The return map of elastic joints: what it promises of every joint, its tangent, its two limits."""
 
 from __future__ import annotations
 
@@ -7,11 +7,13 @@ import pytest
 
 from mbla.arrays import FloatArray
 from mbla.program.program import Program
-from mbla.solution.linear_algebra.stiffness import stiffness_of
-from mbla.solution.nonassociative.joint_law import JointState, LawProblem, joint_tangents
+from mbla.solution.law.elastic_joints import ElasticJoints, together
+from mbla.solution.law.return_map import JointForces, joint_forces, joint_tangents
 from tests.line import WALL, line_of
 
-RHO = 0.7
+NORMAL, SHEAR = 1.4, 0.6
+"""stiffness of all joints"""
+STIFF = np.array([NORMAL, SHEAR, SHEAR])
 COHESIVE = "joints.dry.cohesion=300", "joints.dry.tensile_strength=200", "joints.dry.compressive_strength=20000"
 
 
@@ -26,19 +28,25 @@ def scattered(program: Program, seed: int = 3) -> tuple[FloatArray, FloatArray]:
     return anchor, rng.normal(size=len(program.dead_load))
 
 
-def joints(program: Program, slope: FloatArray, anchor: FloatArray, u: FloatArray) -> JointState:
-    return LawProblem(stiffness_of(program), slope, anchor, RHO).joints(u)
+def joints(program: Program, slope: FloatArray, ratio: float = SHEAR / NORMAL) -> ElasticJoints:
+    return ElasticJoints.of(program, np.full(program.n_points, NORMAL), ratio, slope)
+
+
+def moved(law: ElasticJoints, anchor: FloatArray, u: FloatArray) -> JointForces:
+    stiff = np.array([law.normal, law.shear, law.shear])
+    return joint_forces(law, anchor.T - stiff * law.velocities(u))
 
 
 @pytest.mark.parametrize("overrides", [(), COHESIVE])
 @pytest.mark.parametrize("share", [0.0, 0.4, 1.0])
 def test_what_the_forces_leave_of_the_motion_obeys_the_law(share: float, overrides: tuple[str, ...]) -> None:
-    """v + rho (x - anchor): opens without force, slides against friction, dilates by its angle."""
+    """v + (x - anchor)/k: opens without force, slides against friction, dilates by its angle."""
     program = wall(*overrides)
     limits, slope = program.limits, share * program.limits.friction
     anchor, u = scattered(program)
-    x = joints(program, slope, anchor, u).forces
-    v = (program.equilibrium_matrix.T @ u).reshape(-1, 3) + RHO * (x - anchor)
+    found = moved(joints(program, slope), anchor, u)
+    x = together(found.normal, found.shear)
+    v = (program.equilibrium_matrix.T @ u).reshape(-1, 3) + (x - anchor) / STIFF
     strength = limits.friction * x[:, 0] + limits.cohesion
     sliding = np.linalg.norm(v[:, 1:], axis=1)
     surplus = v[:, 0] - slope * sliding
@@ -61,19 +69,20 @@ def test_the_exact_law_agrees_with_its_tangent(share: float, overrides: tuple[st
     slope = share * program.limits.friction
     anchor, u = scattered(program)
     du = np.random.default_rng(5).normal(size=len(u))
-    here = joints(program, slope, anchor, u)
-    there = joints(program, slope, anchor, u + 1e-7 * du)
-    velocity = (program.equilibrium_matrix.T @ du).reshape(-1, 3)
-    expected = -np.einsum("pij,pj->pi", joint_tangents(program.limits.friction, here, slope) / RHO, velocity)
-    assert (there.forces - here.forces) / 1e-7 == pytest.approx(expected, abs=1e-5)
+    law = joints(program, slope)
+    here, there = (moved(law, anchor, velocities) for velocities in (u, u + 1e-7 * du))
+    expected = -np.einsum("pij,pj->pi", joint_tangents(law, here), STIFF * law.velocities(du).T)
+    change = together(there.normal, there.shear) - together(here.normal, here.shear)
+    assert change / 1e-7 == pytest.approx(expected, abs=1e-5)
 
 
 def test_with_the_friction_angle_it_is_the_projection_on_the_cone() -> None:
     """What is cut off lies in the polar cone and is at right angles to the force (Moreau)."""
     program = wall()
     anchor, u = scattered(program)
-    trial = anchor - (program.equilibrium_matrix.T @ u).reshape(-1, 3) / RHO
-    x = joints(program, program.limits.friction, anchor, u).forces
+    law = joints(program, program.limits.friction, 1.0)
+    trial, found = anchor - NORMAL * law.velocities(u).T, moved(law, anchor, u)
+    x = together(found.normal, found.shear)
     cut = trial - x
     assert (x * cut).sum(axis=1) == pytest.approx(0.0, abs=1e-12)
     assert np.all(cut[:, 0] + program.limits.friction * np.linalg.norm(cut[:, 1:], axis=1) <= 1e-12)

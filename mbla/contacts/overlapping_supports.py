@@ -38,7 +38,7 @@ _WHOLE = 1e-9
 """Relative: a width that is the tolerance up to rounding is as wide."""
 
 
-def counted_once(
+def without_overlapping_supports(
     model: Model, still: BoolArray, patches: Patches, laws: Laws, rows: IntArray, tolerance: float
 ) -> tuple[Patches, IntArray, list[Notice]]:
     """Common surfaces without what other supports hold of them, the row that each comes from, and a notice on them.

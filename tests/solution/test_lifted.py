@@ -8,8 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from mbla.contacts.findings import contacts_of
-from mbla.contacts.glue import solids_of
+from mbla.assembly import build_assembly
 from mbla.deck import read_deck
 from mbla.errors import FileError
 from mbla.model import build_model
@@ -101,7 +100,7 @@ def test_a_glued_bracket_is_one_part_of_the_mechanism(tmp_path: Path) -> None:
     results = run(path, RunOptions())
     case = results.cases[0]
     assert case.solution.mechanics is not None
-    collapse = collapse_of(results.model, results.contacts, case.load_case, case.solution.mechanics)
+    collapse = collapse_of(results.assembly, case.load_case, case.solution.mechanics)
     assert collapse.parts.tolist() == [1, 1]
 
 
@@ -161,14 +160,14 @@ def test_restoring_a_file_refuses_numbers_with_gaps(tmp_path: Path) -> None:
         read_results_hdf5(file)
 
 
-def test_solids_of_the_bracket(tmp_path: Path) -> None:
+def test_the_bracket_is_one_rigid_body(tmp_path: Path) -> None:
     path = tmp_path / "deck.yaml"
     path.write_text(BRACKET, encoding="utf-8")
     deck = read_deck(path)
     model = build_model(deck)
-    solids = solids_of(model, contacts_of(deck, model))
-    assert solids.model.blocks.masses.tolist() == pytest.approx([2525.0])
-    assert solids.model.load_cases[0].dead_load[0, 2] == pytest.approx(-2525 * 9.81)
+    bodies = build_assembly(deck, model).glued()
+    assert bodies.model.blocks.masses.tolist() == pytest.approx([2525.0])
+    assert bodies.load_case(model.load_cases[0]).dead_load[0, 2] == pytest.approx(-2525 * 9.81)
 
 
 @pytest.mark.parametrize("cohesion", [0, 50], ids=["tangent", "angle"])

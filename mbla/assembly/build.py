@@ -1,0 +1,34 @@
+"""From a model to its assembly: contacts are found, and faults of the deck that they show are refused."""
+
+from __future__ import annotations
+
+from mbla.assembly.assembly import Assembly, assembly_of
+from mbla.assembly.findings import glue_findings, objective_findings, settlement_findings
+from mbla.contacts.contacts import ContactsRefused
+from mbla.contacts.findings import bent_faults, overlap_findings
+from mbla.contacts.search import find_contacts
+from mbla.deck.deck import Deck
+from mbla.errors import DeckError, first_faults
+from mbla.model.model import Model
+
+
+def build_assembly(deck: Deck, model: Model) -> Assembly:
+    """The assembly of a model.
+
+    Raises
+    ------
+    DeckError
+        for blocks that overlap, bent faces in contact, glue that leaves nothing to move, and what no search can handle
+    """
+    try:
+        contacts = find_contacts(model, deck.contacts)
+    except ContactsRefused as refused:
+        raise DeckError([deck.fault_at(refused.path, refused.message)]) from refused
+    assembly = assembly_of(model, contacts)
+    faults = [deck.fault_at(path, message) for path, message in overlap_findings(deck, model, contacts)]
+    faults += bent_faults(deck, model, contacts)
+    for findings in (glue_findings, objective_findings, settlement_findings):
+        faults += [deck.fault_at(path, message) for path, message in findings(assembly)]
+    if faults:
+        raise DeckError(first_faults(faults))
+    return assembly

@@ -1,0 +1,129 @@
+"""Faults of the deck that glue and loads show: what glue takes from loads and supports, forces that no joint has."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from mbla.arrays import IntArray
+from mbla.assembly.assembly import Assembly
+from mbla.assembly.rigid_bodies import RigidBodies, guides_at_odds
+from mbla.deck.text.tree import KeyPath
+from mbla.errors import Message
+from mbla.model.model import LoadCase
+from mbla.model.objective import ENDS
+from mbla.model.ties.ties import OUTSIDE
+from mbla.model.wording import named
+
+CANCELLED = 1e-12
+"""sum of live loads on a body, relative to the loads themselves, at which they cancel"""
+
+
+def glue_findings(assembly: Assembly) -> list[tuple[KeyPath, Message]]:
+    """Key path and words of each: nothing is left to move, loads that move nothing, supports that glue would hold."""
+    model = assembly.model
+    if not len(assembly.contacts.report.glued):
+        return []
+    if model.fixed.all():
+        return [(("contacts",), Message("nothing-can-move", "every block is glued to a support: nothing can move"))]
+    found = [*_held_otherwise(assembly), *_glued_settlements(assembly)]
+    if found:
+        return found
+    return [
+        (
+            ("load_cases", case.name, "live"),
+            Message(
+                "live-load-without-effect",
+                "the live loads have no effect: they act on blocks glued to a support, or cancel on glued blocks",
+            ),
+        )
+        for case in model.load_cases
+        if case.settlement is None and _without_effect(assembly.glued(case), case)
+    ]
+
+
+def objective_findings(assembly: Assembly) -> Iterator[tuple[KeyPath, Message]]:
+    """Forces through cuts without a joint, and through glue, whose force nothing determines; each once."""
+    model, contacts = assembly.model, assembly.contacts
+    for case in model.load_cases:
+        objective, path = case.objective, ("load_cases", case.deck_name, "objective", "force")
+        if objective is None or objective.end != next(iter(ENDS)):
+            continue
+        if len(objective.ties):
+            yield from _loose_ties(assembly, objective.ties, (*path[:-1], "tie"))
+            continue
+        glued = contacts.report.glued[objective.crossed(contacts.report.glued) != 0]
+        if len(glued):
+            first, second = (model.body_name(int(body)) for body in glued[0])
+            words = f"{first} and {second} are glued: the force through glue is not determined; put both on one side"
+            yield path, Message("objective-not-possible", words)
+        elif not objective.crossed(contacts.bodies).any():
+            words = "no joint lies between the two sides, so that there is no force: see what `mbla check` says touches"
+            yield path, Message("objective-without-effect", words)
+
+
+def _loose_ties(assembly: Assembly, rows: IntArray, path: KeyPath) -> Iterator[tuple[KeyPath, Message]]:
+    """Ties, (n,), all of whose points are on blocks that are glued to one."""
+    model = assembly.model
+    body = np.append(np.where(model.fixed, OUTSIDE, assembly.glued().label), OUTSIDE)
+    ties = model.ties.with_bodies(body[model.ties.bodies])
+    for row in rows.tolist():
+        if len(np.unique(ties.bodies[ties.start[row] : ties.start[row + 1]])) == 1:
+            words = f"{ties.names[row]} is between blocks that are glued to one: its force is not determined"
+            yield path, Message("objective-not-possible", words)
+
+
+def settlement_findings(assembly: Assembly) -> Iterator[tuple[KeyPath, Message]]:
+    """Supports that give way and hold nothing: no joint and no tie lies between them and a block that can move."""
+    model, contacts = assembly.model, assembly.contacts
+    still = np.append(model.fixed, np.ones(len(model.grounds) + 1, dtype=bool))
+    ties, glued = model.ties, contacts.report.glued
+    for case in model.load_cases:
+        if case.settlement is None or case.objective is not None:
+            continue
+        if (np.isin(glued, case.settlement.blocks).sum(axis=1) == 1).any():
+            continue  # refused for that
+        on_it = np.isin(contacts.bodies, case.settlement.blocks).any(axis=1)
+        tied = np.unique(ties.tie_of_point[np.isin(ties.bodies, case.settlement.blocks)])
+        beside = [contacts.bodies[on_it].ravel(), ties.bodies[np.isin(ties.tie_of_point, tied)]]
+        if still[np.concatenate(beside)].all():  # the last entry stands for what is outside of the model
+            words = "nothing that can move touches the support that gives way: no reaction is lost; see `mbla check`"
+            yield ("load_cases", case.deck_name, "settlement", "on"), Message("settlement-without-effect", words)
+
+
+def _held_otherwise(assembly: Assembly) -> Iterator[tuple[KeyPath, Message]]:
+    """Guided blocks that glue holds to a support, or to a block that may move in another way."""
+    guides, bodies = assembly.model.guides, assembly.glued()
+    stuck, name = np.intersect1d(guides.blocks, assembly.contacts.report.held), assembly.model.blocks.name
+    if len(stuck):
+        words = f"{named(stuck, name)} may move in some way, but glue holds it to a support"
+        yield ("supports",), Message("support-held-twice", words)
+    elif (pair := guides_at_odds(guides, bodies.label, bodies.arms)) is not None:
+        first, second = map(name, pair)
+        words = f"{first} and {second} are glued to one rigid body, but may move in different ways: guide one"
+        yield ("supports",), Message("support-held-twice", words)
+
+
+def _glued_settlements(assembly: Assembly) -> Iterator[tuple[KeyPath, Message]]:
+    """A support that gives way does not take along what is glued to it."""
+    model, bodies = assembly.model, assembly.contacts.report.glued
+    for case in model.load_cases:
+        if case.settlement is None:
+            continue
+        on_it = bodies[np.isin(bodies, case.settlement.blocks).any(axis=1)]
+        others = np.setdiff1d(on_it, case.settlement.blocks)
+        if len(others):
+            names = ", ".join(model.body_name(int(body)) for body in others[:3])
+            message = f"{names} held by glue on a support that gives way: fix that too, so that it settles along"
+            yield ("load_cases", case.name, "settlement", "on"), Message("support-held-twice", message)
+
+
+def _without_effect(bodies: RigidBodies, case: LoadCase) -> bool:
+    """Whether the live loads on bodies that move cancel, relative to the sizes of these and of their moments."""
+    net = np.abs(bodies.loads(case.live_load)[~bodies.model.fixed]).max(axis=0)
+    sizes = np.abs(case.live_load)
+    sizes[:, 3:] += (
+        np.linalg.norm(bodies.arms, axis=1)[:, None] * np.linalg.norm(case.live_load[:, :3], axis=1)[:, None]
+    )
+    return bool((net <= CANCELLED * sizes.max(axis=0)).all())

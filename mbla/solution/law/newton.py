@@ -1,0 +1,103 @@
+"""Newton's method on the law of elastic joints itself: a step without products.
+
+With what joints remember, forces follow from the motion alone (:mod:`mbla.solution.law.return_map`), so that balance is
+an equation in u and λ::
+
+    A x(Aᵀu) + f_D + λ f_L − ε u = 0,    f_L·u = w
+
+It is semismooth. From joints that stick, where most of them do, it comes to its solution to rounding in a few
+iterations; elsewhere to none, which its misfit says. Interfaces with a law of their own have no return map.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from mbla.arrays import FloatArray
+from mbla.solution.law.elastic_joints import StepState
+from mbla.solution.law.exact_law import forces_by_law
+from mbla.solution.law.joint_equations import JointStep
+from mbla.solution.law.return_map import JointForces, joint_tangents
+
+BACKTRACKS, FALL = 8, 1e-4
+"""Times that an iteration is halved until what is without balance falls, and the least share of that, of its length."""
+
+
+@dataclass(frozen=True)
+class NewtonState:
+    """A state whose forces are those of the law.
+
+    u, factor  : velocities, (n_rows,), and load factor
+    forces     : of the joints
+    unbalanced : largest force without balance, in mean loads of a block, or lack of live work
+    iterations : factorisations
+    """
+
+    u: FloatArray
+    factor: float
+    forces: JointForces
+    unbalanced: float
+    iterations: int
+
+    def state_of(self, step: JointStep) -> StepState:
+        """The same as a state of a step, without products."""
+        none = np.zeros_like(self.forces.normal)
+        shear, crushing = self.forces.shear, none[step.joints.crushable]
+        return StepState(self.u, self.factor, self.forces.normal, none, shear, np.zeros_like(shear), none, crushing)
+
+
+@np.errstate(over="ignore", invalid="ignore")  # iterations that diverge are seen and given up
+def by_newton(
+    step: JointStep, u: FloatArray, factor: float, *, most: int, balanced: float, shift: float = 0.0
+) -> NewtonState:
+    """The last iterate; whether it solves the step what it leaves without balance says.
+
+    u, factor : velocities, (n_rows,), and load factor to begin with
+    most      : iterations at most
+    balanced  : force without balance, in mean loads of a block, at which it ends; with 0 where rounding lets it fall
+                no further
+    shift     : share of the stiffness of all joints sticking that is added in iterations: blocks whose joints all open
+                have none
+    """
+    residual, forces = _residual(step, u, factor)
+    count = 0
+    while np.abs(residual).max(initial=0.0) > balanced and count < most:
+        found = _iteration(step, u, factor, residual, forces, shift)
+        count += 1
+        if found is None:
+            break
+        u, factor, residual, forces = found
+    return NewtonState(u, factor, forces, float(np.abs(residual).max(initial=0.0)), count)
+
+
+def _residual(step: JointStep, u: FloatArray, factor: float) -> tuple[FloatArray, JointForces]:
+    """Unbalanced forces and f_L·u − w, (n_rows + 1,), the latter 0 where the load factor stays; forces of the joints."""
+    joints, program = step.joints, step.joints.program
+    forces = forces_by_law(step, u)
+    balance = joints.carried(forces.normal, forces.shear) + program.dead_load + factor * program.live_load
+    work = float(program.live_load @ u) - step.work if step.driven else 0.0
+    return np.append(balance - step.held * u, work), forces
+
+
+def _iteration(
+    step: JointStep, u: FloatArray, factor: float, residual: FloatArray, forces: JointForces, shift: float
+) -> tuple[FloatArray, float, FloatArray, JointForces] | None:
+    """The next iterate, halved until the residual falls; None where it does not, or where the tangent is singular."""
+    joints = step.joints
+    compliance = np.vstack([step.normal_compliance, *[step.shear_compliance] * (joints.program.components - 1)])
+    tangents = joint_tangents(joints, forces) / compliance.T[:, None, :]
+    springs = step.held + shift * joints.matrix.size * step.length
+    solve = joints.matrix.factorized(tangents, springs, fixed_load=not step.driven)
+    change = None if solve is None else solve(-residual)
+    if change is None or not np.isfinite(change).all():
+        return None
+    size, norm = 1.0, float(np.linalg.norm(residual))
+    for _ in range(BACKTRACKS):
+        ahead, there = u + size * change[:-1], factor + size * float(change[-1])
+        trial, found = _residual(step, ahead, there)
+        if np.linalg.norm(trial) < (1.0 - FALL * size) * norm:
+            return ahead, there, trial, found
+        size *= 0.5
+    return None
