@@ -7,7 +7,7 @@ solver stage's own evaluation of the same, on the program alone.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -40,6 +40,8 @@ class CertifiedGap:
     gap               : their distance over the load factor, or over a thousandth of dead over live load if that is more
     forces, load_factor: the repaired forces, (n_points, components), and what they carry; as given where not repaired
     velocities        : (n_rows,) of the least kinematic bound
+    least             : load factor up to which it is taken for that in the gap
+    of_interfaces     : there are conditions on interfaces
     """
 
     static: float
@@ -48,6 +50,16 @@ class CertifiedGap:
     forces: FloatArray
     load_factor: float
     velocities: FloatArray
+    least: float = 0.0
+    of_interfaces: bool = False
+
+    def with_bounds_of(self, other: CertifiedGap) -> CertifiedGap:
+        """The greater static bound of two with its forces, and the lesser kinematic one with its velocities."""
+        forces = self if not other.static > self.static and np.isfinite(self.static) else other
+        velocities = self if not other.kinematic < self.kinematic and np.isfinite(self.kinematic) else other
+        static, kinematic = forces.static, velocities.kinematic
+        gap = abs(kinematic - static) / max(abs(kinematic), self.least, 1e-300)
+        return replace(forces, static=static, kinematic=kinematic, gap=gap, velocities=velocities.velocities)
 
 
 @stage("repair")
@@ -70,7 +82,7 @@ def certified_gap(program: Program, state: LawState, slacks: FloatArray | None =
         forces, factor, static = np.zeros_like(forces), 0.0, 0.0
     least = ZERO_FACTOR * factor_size(program)
     gap = abs(kinematic - static) / max(abs(kinematic), least, 1e-300)
-    return CertifiedGap(static, kinematic, gap, forces, factor, mechanisms[best])
+    return CertifiedGap(static, kinematic, gap, forces, factor, mechanisms[best], least, slacks is not None)
 
 
 def factor_size(program: Program) -> float:

@@ -207,7 +207,13 @@ def _is_large(run: AssociativeRun) -> bool:
 
 
 def better(first: ProvedAnswer, second: ProvedAnswer) -> ProvedAnswer:
-    """The answer with the stronger proof, the earlier one of equals."""
+    """The answer with the stronger proof, the earlier one of equals; with conditions on interfaces both bounds count.
+
+    Of such programs one method has the closer forces, the other the closer velocities.
+    """
+
+    if first.gap is not None and second.gap is not None and first.gap.of_interfaces:
+        first, second = (replace(one, gap=first.gap.with_bounds_of(second.gap)) for one in (first, second))
 
     def weakness(answer: ProvedAnswer) -> tuple[int, float]:
         if answer.certificate is not None or answer.gap is not None:
