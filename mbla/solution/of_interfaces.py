@@ -57,4 +57,4 @@ def _crushes(
     left = -crushing_excess(laws, resultants) / np.abs(resultants[:, 0]).max(initial=1e-300)
     own = np.zeros(len(left))
     np.maximum.at(own, owner, np.abs(by_crushing).max(axis=1))
-    return laws.crushable & (own > np.maximum(left, AT_REST) * speed)
+    return np.asarray(laws.crushable & (own > np.maximum(left, AT_REST) * speed))

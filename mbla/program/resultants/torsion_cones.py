@@ -40,7 +40,7 @@ def torsion_conditions(
     by_length = np.column_stack([np.ones((len(chosen), 3)), np.repeat(1.0 / lengths[:, None], 3, axis=1)]).ravel()
     motions = sp.csr_array(sp.diags_array(by_length / unit) @ rows.motion)
     return Conditions(
-        velocities=sp.csr_array(map_.T @ rows.motion) / unit,
+        velocities=sp.csr_array(map_.T @ rows.motion / unit),
         cost=rows.cost,
         cones=rows.cones,
         cone_sizes=rows.cone_sizes,

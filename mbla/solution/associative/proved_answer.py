@@ -115,6 +115,8 @@ def solve_until_proved(run: AssociativeRun, form: AssociativeForm) -> ProvedAnsw
             methods.append(other_method(best.solution.solver))
             if _is_open(run, best):
                 best = better(best, _answer(run, form, 1.0, replace(run.settings, solver=methods[1])))
+    if run.program.conditions is not None and best.distance <= ACCEPTED_GAP:
+        return best
     tried: set[tuple[str, float, float | None, bool]] = set()
     if best.solution.solver == "mbla" and best.solution.status is not Status.SOLVED:
         tried.add(("mbla", 1.0, None, True))
