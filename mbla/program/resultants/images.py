@@ -15,7 +15,6 @@ import scipy.sparse as sp
 from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.program.reductions.restrict import block_matrix
 
-
 UNTURNED = 1e-6
 """Distance of a map of forces from the identity that is rounding: an image of an interface turns them by far more."""
 

@@ -113,7 +113,8 @@ def solve_until_proved(run: AssociativeRun, form: AssociativeForm) -> ProvedAnsw
         methods = [best.solution.solver]
         if not (_is_large(run) and best.gap is not None):
             methods.append(other_method(best.solution.solver))
-            if _is_open(run, best):
+            unsure = run.program.conditions is not None and best.solution.status is Status.UNBOUNDED
+            if unsure or _is_open(run, best):
                 best = better(best, _answer(run, form, 1.0, replace(run.settings, solver=methods[1])))
     if run.program.conditions is not None and best.distance <= ACCEPTED_GAP:
         return best
@@ -213,7 +214,6 @@ def better(first: ProvedAnswer, second: ProvedAnswer) -> ProvedAnswer:
 
     Of such programs one method has the closer forces, the other the closer velocities.
     """
-
     if first.gap is not None and second.gap is not None and first.gap.of_interfaces:
         first, second = (replace(one, gap=first.gap.with_bounds_of(second.gap)) for one in (first, second))
 
