@@ -2,7 +2,8 @@
 
 A joint may carry all of a strength of thousands of block loads when it crushes. Its conditions are then differences of
 numbers of that size, of which nothing is left in the unit of the mean load: the largest load at collapse takes its
-place, or the greatest strength where the first unit led to no load factor.
+place, or the greatest strength where the first unit led to no load factor. That the dead load is carried was shown in
+the first unit.
 """
 
 from __future__ import annotations
@@ -43,7 +44,7 @@ def solved_under_heavy_loads(
     if unit <= HEAVY:
         return result
     scaled = with_conditions_of(_in_unit(program, unit), crushing, interfaces.twisting)
-    again = solve_associative(scaled, settings, log, first=len(result.programs) + 1)
+    again = solve_associative(scaled, settings, log, first=len(result.programs) + 1, carried=True)
     programs = (*result.programs, *again.programs)
     state = again.state
     if state is None or state.motions is None:

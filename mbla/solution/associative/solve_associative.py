@@ -85,12 +85,14 @@ def solve_associative(
     *,
     first: int = 1,
     stress_free: bool = False,
+    carried: bool = False,
 ) -> AssociativeResult:
     """Solve the program of one load case with associative flow.
 
     first       : number of its first program in the sequence of the load case
     stress_free : the state of the stress-free assembly is wanted as well: it is found before the program with the live
                   load reversed, which it usually saves
+    carried     : the dead load alone is known to be carried
     """
     run = AssociativeRun(program, settings, log, first, [])
     falling = _fall_of_what_nothing_touches(program)
@@ -108,6 +110,8 @@ def solve_associative(
         return _no_equilibrium(run, answer.certificate)
     if answer.gap is None and answer.solution.status is not Status.UNBOUNDED:
         return _undecided(run, answer.solution)
+    if carried:
+        return _with_dead_load(run, form, answer, proved=True)
     if not stress_free or settings.deadline is not None:
         # where a support gives way, forces at any load factor carry the dead load, with another reaction
         shown = program.facts.settles and answer.gap is not None and np.isfinite(answer.gap.static)
