@@ -1,24 +1,24 @@
-"""A load factor proved from both sides: the associative program solved again until its bounds meet.
+"""A load factor proved from both sides: by one interior-point method, and where that leaves it open by the other.
 
-What the solver returns is repaired (``bounds``): forces that balance the loads prove the factor from
-below, compatible velocities from above. Where the two lie too far apart the program is solved by the other
-interior-point method, then with a sharper tolerance, in units of the load factor where that is small, since the
-solver's tolerance is absolute there, and with the equilibrium of light blocks in units of what they carry.
+What a method returns is repaired (``bounds``): forces that balance the loads prove the factor from below, compatible
+velocities from above. Where the two lie too far apart the other method takes the program in units of what was found:
+the equilibrium of each block in those of what it carries, the live power in those of the load factor, for the tolerance
+of a method is one for all; and within a friction that it can tell from none, which the true one contains. A stack at
+its greatest overhang is sharpest in units of its dead load: last comes the first method again. What stays open then is
+approximate, and said.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from itertools import product
 
 import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.program.program import Program
-from mbla.solution.associative.associative_form import AssociativeForm, in_own_units
+from mbla.solution.associative.associative_form import AssociativeForm, associative_form, in_own_units
 from mbla.solution.associative.bounds import CertifiedGap, certified_gap, factor_size, falling_motion
-from mbla.solution.cone_solvers.choice import cone_solver, other_method, sharpen
-from mbla.solution.cone_solvers.clarabel_adapter import regularization
+from mbla.solution.cone_solvers.choice import cone_solver, other_method
 from mbla.solution.cone_solvers.cone_solution import ConeSolution, ConeSolver, Log
 from mbla.solution.nonassociative.law_state import LawState
 from mbla.solution.settings import SolverSettings
@@ -28,44 +28,16 @@ from mbla.solution.thresholds import GAP_TOLERANCE
 STANDS_MARGIN = 1e-7
 """A load factor is taken as negative only beyond this share of (dead load over live load): below it is solver noise."""
 
-SMALL = 1e-3
-"""Share of dead over live load below which a load factor is computed again in units of its own size."""
+SMALL, NOISE, ZERO_SIZE = 1e-3, 1e-10, 1e-7
+"""Shares of dead over live load: below the first a load factor is computed again in units of its own size, which is not
+known below the second; then the third stands for it."""
 
-NOISE = 1e-10
-"""Share below which its size is not known from the solver, and the unit is the next one."""
+SHARPER, SHARPEST, HALF_WAY = 1e-2, 1e-12, 0.5
+"""Factor on the tolerance of the second method, the least tolerance, and power of the size of a load factor that is the
+second one's unit of live power."""
 
-ZERO_SIZE = 1e-7
-"""Size, as a share, that is taken for a load factor of zero."""
-
-SHARPER = ((0.0, 1e-2, None), (1.0, 1e-2, None), (0.5, 1e-4, 1e-8), (0.0, 1e-4, 1e-9))
-"""How a program is solved again, in turn: power of the load factor's size that is its unit, factor on the solver's
-tolerance, regularisation. An arch at its least thickness is sharpest in units of its own size, which is too much for a
-stack at its greatest overhang: half-way, or the unit of dead loads, does better there."""
-
-FURTHER = 0.1
-"""Factor on the tolerance with which a solved program continues where its bounds are too far apart: a few iterations
-each time. On a planar wall of 10,050 blocks the bounds met after 6 more of them; solving again took 80 by either
-method."""
-
-WORTHWHILE = 0.5
-"""Share of the distance of the bounds that may be left for the program to continue once more."""
-
-SHARPEST = 1e-12
-"""Least tolerance of the solver."""
-
-ACCEPTED_GAP = GAP_TOLERANCE
-"""Distance of the bounds, relative, up to which a load factor counts as solved."""
-
-LARGE = 30_000
-"""Rows of equilibrium, 10,000 planar blocks, beyond which solving again takes minutes: bounds within ACCEPTED_GAP are
-enough there, unless bounds closer than CLOSE are asked for. The results say how far apart they are."""
-
-FIRST_OF_LARGE = 1e-8
-"""Tolerance at which the bounds of a large program are first evaluated; it continues where they lie too far apart. A
-planar wall of 19,951 blocks came to it in 76 iterations, bounds 1.7e-8 apart; it stalled at 2.8e-9 thirty later."""
-
-CLOSE = 1e-7
-"""A wanted distance of the bounds below this justifies every try, at any size."""
+ROUGH = 1e3
+"""Friction that counts in the second method."""
 
 
 @dataclass
@@ -91,11 +63,13 @@ class AssociativeRun:
 class ProvedAnswer:
     """What the solver returned, and what of it could be proved.
 
+    form        : what was solved
     gap         : bounds of the load factor, where there is one
     certificate : compatible velocities in which the dead load does work, where there is no equilibrium
     """
 
     solution: ConeSolution
+    form: AssociativeForm
     gap: CertifiedGap | None = None
     certificate: FloatArray | None = None
 
@@ -106,107 +80,61 @@ class ProvedAnswer:
 
 
 def solve_until_proved(run: AssociativeRun, form: AssociativeForm) -> ProvedAnswer:
-    """The program itself, solved until its bounds meet or no settings are left."""
-    best = _answer(run, form, 1.0, run.settings)
-    methods = [run.settings.solver]
-    if methods == ["auto"]:
-        methods = [best.solution.solver]
-        if not (_is_large(run) and best.gap is not None):
-            methods.append(other_method(best.solution.solver))
-            unsure = run.program.conditions is not None and best.solution.status is Status.UNBOUNDED
-            if unsure or _is_open(run, best):
-                best = better(best, _answer(run, form, 1.0, replace(run.settings, solver=methods[1])))
-    if run.program.conditions is not None and best.distance <= ACCEPTED_GAP:
-        return best
-    tried: set[tuple[str, float, float | None, bool]] = set()
-    if best.solution.solver == "mbla" and best.solution.status is not Status.SOLVED:
-        tried.add(("mbla", 1.0, None, True))
-    for (power, share, shift), method in product(SHARPER, methods):
-        if not _is_open(run, best):
-            break
-        own = None if best.gap is None else in_own_units(run.program, best.gap.forces)
-        unit = _size(run, best) ** power
-        shifted = regularization(form.cone_program, replace(run.settings, regularization=shift))
-        kind = (
-            method,
-            unit,
-            None if method == "mbla" else shifted,
-            own is None,
-        )  # mbla has no regularisation to choose
-        if kind in tried:
-            continue
-        tolerance = max(share * run.settings.tolerance, SHARPEST)
-        sharper = replace(run.settings, solver=method, tolerance=tolerance, regularization=shifted)
-        answer = _answer(run, own or form, unit, sharper)
-        if answer.solution.status is not Status.SOLVED:  # a tolerance still smaller would change nothing
-            tried.add(kind)
-        best = better(best, answer)
+    """What one method proves; where that leaves it open the other, then the first as sharply as it can."""
+    first = best = _answer(run, form, 1.0, run.settings)
+    sharpest = replace(run.settings, tolerance=min(run.settings.tolerance, SHARPEST))
+    other = replace(run.settings, tolerance=max(SHARPER * run.settings.tolerance, SHARPEST))
+    if run.settings.solver == "auto":
+        own = first.solution.solver
+        sharpest, other = replace(sharpest, solver=own), replace(other, solver=other_method(own))
+    # of strengths beyond numbers one method may say that they bear everything
+    unsure = run.program.conditions is not None and best.solution.status is Status.UNBOUNDED
+    if unsure or _is_open(run, best):
+        half_way = _size(run, first) ** HALF_WAY
+        best = better(best, _answer(run, _in_units_of(run, first) or form, half_way, other))
+    if _is_open(run, best):
+        best = better(best, _answer(run, form, 1.0, sharpest))
     return best
 
 
 def _is_open(run: AssociativeRun, best: ProvedAnswer) -> bool:
-    """Whether another try is wanted, and allowed."""
+    """Whether another program is wanted, and allowed."""
     return not is_decided(run, best) and best.solution.status not in (Status.TIME_LIMIT, Status.ITERATION_LIMIT)
+
+
+def _in_units_of(run: AssociativeRun, found: ProvedAnswer) -> AssociativeForm | None:
+    """The program in units of what was found, within less friction; None where it would be the same."""
+    limits = run.program.limits
+    rough = bool((limits.friction > ROUGH).any())
+    less = replace(limits, friction=np.minimum(limits.friction, ROUGH))
+    program = replace(run.program, limits=less) if rough else run.program
+    own = None if found.gap is None else in_own_units(program, found.gap.forces)
+    if own is None and not rough:
+        return None
+    return replace(own or associative_form(program), program=run.program)  # what is proved holds of the true friction
 
 
 def _answer(run: AssociativeRun, form: AssociativeForm, unit: float, settings: SolverSettings) -> ProvedAnswer:
     """The program in the given unit of the load factor, and what of its solution can be proved."""
-    if _is_large(run):  # no finer than is worthwhile
-        settings = replace(settings, tolerance=max(settings.tolerance, FIRST_OF_LARGE))
     solver = cone_solver(form.cone_program if unit == 1.0 else form.in_units(unit), settings, run.log)
-    answer, tolerance = _once(run, form, solver, unit), settings.tolerance
-    while answer.solution.status is Status.SOLVED and _is_open(run, answer):
-        before, tolerance = (answer.distance, tolerance), max(FURTHER * tolerance, SHARPEST)
-        if tolerance >= before[1] or not sharpen(solver, tolerance):
-            break
-        again = _once(run, form, solver, unit, answer)
-        if again is answer:  # it was that accurate already
-            continue
-        answer = better(answer, again)
-        if not answer.distance <= WORTHWHILE * before[0]:
-            break
-    return answer
-
-
-def _once(
-    run: AssociativeRun,
-    form: AssociativeForm,
-    solver: ConeSolver,
-    unit: float,
-    before: ProvedAnswer | None = None,
-) -> ProvedAnswer:
-    """One run of a solver, and what of its solution can be proved; ``before`` where it takes no further step."""
     solution = solved_once(run, solver, "associative", unit)
-    if before is not None and not solution.iterations:
-        return before
     if unit != 1.0:
         solution = replace(solution, x=solution.x * unit, objective=solution.objective * unit)
     if solution.status in (Status.TIME_LIMIT, Status.ITERATION_LIMIT, Status.UNBOUNDED):
-        return ProvedAnswer(solution)
+        return ProvedAnswer(solution, form)
     certificate = proved_certificate(run, form, solution)
     has_value = certificate is None and solution.status in WITH_VALUE and not says_it_falls(run, solution)
-    return ProvedAnswer(solution, _proved(form, solution) if has_value else None, certificate)
+    return ProvedAnswer(solution, form, _proved(form, solution) if has_value else None, certificate)
 
 
 def is_decided(run: AssociativeRun, answer: ProvedAnswer) -> bool:
-    """Whether solving again could bring nothing: proved as sharply as asked for, a small factor relatively too."""
+    """Whether it is proved as sharply as asked for, a small load factor relatively too."""
     if answer.certificate is not None or answer.solution.status is Status.UNBOUNDED:
         return True
-    if answer.gap is None or not answer.gap.gap <= wanted_gap(run):
+    if answer.gap is None or not answer.gap.gap <= run.settings.gap:
         return False
-    share = max(ACCEPTED_GAP, run.settings.gap)
+    share = max(GAP_TOLERANCE, run.settings.gap)
     return abs(answer.gap.kinematic - answer.gap.static) <= share * abs(answer.gap.kinematic)
-
-
-def wanted_gap(run: AssociativeRun) -> float:
-    """Distance of the bounds, relative, at which no other try is made."""
-    wanted = run.settings.gap
-    return max(wanted, ACCEPTED_GAP) if _is_large(run) else wanted
-
-
-def _is_large(run: AssociativeRun) -> bool:
-    """Whether solving again takes minutes, and bounds so close are not asked for."""
-    return len(run.program.dead_load) > LARGE and run.settings.gap >= CLOSE
 
 
 def better(first: ProvedAnswer, second: ProvedAnswer) -> ProvedAnswer:
@@ -233,13 +161,12 @@ def proved_certificate(run: AssociativeRun, form: AssociativeForm, solution: Con
     return falling_motion(run.program, motion) if np.isfinite(motion).all() else None
 
 
-def solved_once(run: AssociativeRun, solver: ConeSolver, kind: str, unit: float, enough: float = 0.0) -> ConeSolution:
+def solved_once(run: AssociativeRun, solver: ConeSolver, kind: str, unit: float) -> ConeSolution:
     """Solve the loaded program once and record it; ``unit`` times the objective is the load factor of the program."""
     number, to_load_factor = run.first + len(run.records), unit * run.program.scaling.live
-    solution = solver.solve_once(number, to_load_factor, enough)
+    solution = solver.solve_once(number, to_load_factor)
     value = to_load_factor * solution.objective if solution.status in WITH_VALUE else np.nan
-    status = Status.SOLVED if enough > 0.0 and solution.status is Status.APPROXIMATE else solution.status
-    run.records.append(replace(solution, status=status).record(number, kind, value))
+    run.records.append(solution.record(number, kind, value))
     return solution
 
 

@@ -2,14 +2,13 @@
 
 With associative flow the static and the kinematic theorem hold, so that the optimum is unique. What the solver returns
 is not trusted but repaired (``bounds``): forces that balance the loads prove the factor from below,
-compatible velocities from above. Where the two lie too far apart the program is solved again: with a sharper tolerance,
-and in units of the load factor where that is small, since the solver's tolerance is absolute there.
+compatible velocities from above (:mod:`mbla.solution.associative.proved_answer`).
 
 The load factors under which the structure is in equilibrium form an interval. The dead load alone is carried if there
 is equilibrium at a load factor of zero or below besides that at collapse. Where it is asked as well whether the
 structure stands from its stress-free assembly (``standing``), the forces that arise there are repaired
-to prove it. Otherwise a second program looks for it with the live load reversed, and is stopped as soon as its forces,
-well inside the cones, can be repaired. If zero is not in the interval a mechanism shows how the structure falls.
+to prove it. Otherwise a second program looks for it with the live load reversed. If zero is not in the interval a
+mechanism shows how the structure falls.
 """
 
 from __future__ import annotations
@@ -25,32 +24,22 @@ from mbla.program.static import gravity_form
 from mbla.solution.associative.associative_form import AssociativeForm, associative_form
 from mbla.solution.associative.bounds import falling_motion
 from mbla.solution.associative.proved_answer import (
-    ACCEPTED_GAP,
     STANDS_MARGIN,
     AssociativeRun,
     ProvedAnswer,
-    better,
-    is_decided,
     proved_certificate,
     says_it_falls,
     solve_until_proved,
     solved_once,
 )
 from mbla.solution.associative.repair import repaired_forces
-from mbla.solution.cone_solvers.choice import cone_solver, other_method
+from mbla.solution.cone_solvers.choice import cone_solver
 from mbla.solution.cone_solvers.cone_solution import ConeSolution, Log
 from mbla.solution.nonassociative.law_state import LawState, law_state
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import WITH_VALUE, ProgramRecord, Status
 from mbla.solution.standing.standing import StressFree, stress_free_state
-
-ENOUGH = 1e-1
-"""Residuals and gap at which the program with the live load reversed is stopped: its forces, far inside the cones then,
-can usually be repaired to carry a load factor below zero, after 6 iterations instead of 25 on a wall of 410 blocks."""
-
-ROUGH = 1e3
-"""Friction beyond which the solver may break down. Where it does, its forces are sought within this friction, which the
-true one contains; whether the answer is good enough is decided by the proved bounds."""
+from mbla.solution.thresholds import GAP_TOLERANCE
 
 LOCKED = "no mechanism exists in which the live load does work: friction locks the structure under any multiple"
 
@@ -98,26 +87,19 @@ def solve_associative(
     falling = _fall_of_what_nothing_touches(program)
     if falling.any():
         return _no_equilibrium(run, falling)
-    rough = program.limits.friction > ROUGH
-    form = associative_form(program)
-    answer = solve_until_proved(run, form)
-    if rough.any() and not is_decided(run, answer):
-        limits = replace(program.limits, friction=np.minimum(program.limits.friction, ROUGH))
-        made = associative_form(replace(program, limits=limits))
-        form = replace(made, program=program)  # proved is what holds of the true friction
-        answer = better(answer, solve_until_proved(run, form))
+    answer = solve_until_proved(run, associative_form(program))
     if answer.certificate is not None:
         return _no_equilibrium(run, answer.certificate)
     if answer.gap is None and answer.solution.status is not Status.UNBOUNDED:
         return _undecided(run, answer.solution)
     if carried:
-        return _with_dead_load(run, form, answer, proved=True)
+        return _with_dead_load(run, answer, proved=True)
     if not stress_free or settings.deadline is not None:
         # where a support gives way, forces at any load factor carry the dead load, with another reaction
         shown = program.facts.settles and answer.gap is not None and np.isfinite(answer.gap.static)
-        return _with_dead_load(run, form, answer, proved=bool(shown))
+        return _with_dead_load(run, answer, proved=bool(shown))
     state = stress_free_state(program)
-    result = _with_dead_load(run, form, answer, proved=_proves(run, state))
+    result = _with_dead_load(run, answer, proved=_proves(run, state))
     return replace(result, stress_free=state)
 
 
@@ -138,21 +120,20 @@ def _carried_alone(program: Program, forces: FloatArray) -> bool:
     return repaired_forces(program, forces, 0.0) is not None
 
 
-def _with_dead_load(
-    run: AssociativeRun, form: AssociativeForm, answer: ProvedAnswer, *, proved: bool
-) -> AssociativeResult:
+def _with_dead_load(run: AssociativeRun, answer: ProvedAnswer, *, proved: bool) -> AssociativeResult:
     """The result, once it is known that the dead load alone is carried.
 
     proved : it is known already
     """
-    settings = run.settings
     reverse, carried = answer.solution, proved or not run.program.dead_load.any()
     if not carried:
-        reverse, carried = _reversed(run, form, settings)
-    if not carried and reverse.status is Status.NUMERICAL_ERROR and settings.solver == "auto":
-        reverse, carried = _reversed(run, form, replace(settings, solver=other_method(reverse.solver)))
+        settings = run.settings
+        if settings.solver == "auto":
+            settings = replace(settings, solver=answer.solution.solver)
+        reverse = solved_once(run, cone_solver(answer.form.reversed_program, settings, run.log), "reverse", -1.0)
+        carried = _carried(run, answer.form, reverse)
     if not carried:
-        certificate = proved_certificate(run, form, reverse)
+        certificate = proved_certificate(run, answer.form, reverse)
         if certificate is not None:
             return _no_equilibrium(run, certificate)
         if says_it_falls(run, reverse):
@@ -161,22 +142,10 @@ def _with_dead_load(
             reason = "whether the dead load alone is carried could not be decided: " + reverse.shortfall
             return _without_state(run, reverse.status, reason)
     if answer.solution.status is Status.UNBOUNDED and reverse.status is Status.UNBOUNDED and not proved:
-        return _locked_both_ways(run, settings)
+        return _locked_both_ways(run, run.settings)
     if answer.solution.status is Status.UNBOUNDED:
         return _without_state(run, Status.UNBOUNDED, LOCKED)
     return _with_load_factor(run, answer)
-
-
-def _reversed(run: AssociativeRun, form: AssociativeForm, settings: SolverSettings) -> tuple[ConeSolution, bool]:
-    """The program with the live load reversed, as far as it is needed, and whether it proves the dead load carried."""
-    solver = cone_solver(form.reversed_program, settings, run.log)
-    reverse, carried = None, False
-    for enough in (ENOUGH, 0.0):
-        if reverse is None or not (carried or reverse.status is Status.TIME_LIMIT):
-            reverse = solved_once(run, solver, "reverse", -1.0, enough)
-            carried = _carried(run, form, reverse)
-    assert reverse is not None
-    return reverse, carried
 
 
 def _locked_both_ways(run: AssociativeRun, settings: SolverSettings) -> AssociativeResult:
@@ -196,7 +165,7 @@ def _locked_both_ways(run: AssociativeRun, settings: SolverSettings) -> Associat
 def _with_load_factor(run: AssociativeRun, answer: ProvedAnswer) -> AssociativeResult:
     gap, status, reason, asked = answer.gap, Status.SOLVED, "", None
     assert gap is not None
-    if not gap.gap <= ACCEPTED_GAP:
+    if not gap.gap <= GAP_TOLERANCE:
         live = run.program.scaling.live
         status = Status.APPROXIMATE
         asked = run.settings.gap if gap.gap <= run.settings.gap else None

@@ -53,12 +53,6 @@ def cone_solver(
     return _OneThenOther(CondensedProgram(cone_program, settings, log), settings, log)
 
 
-def sharpen(solver: ConeSolver, tolerance: float) -> bool:
-    """Let the next run of a program go on from its solution to a smaller tolerance; False where it cannot."""
-    own = solver.first if isinstance(solver, _OneThenOther) else solver
-    return isinstance(own, CondensedProgram) and own.sharpen(tolerance)
-
-
 def interior_point_method(cone_program: ConeProgram, solver: str) -> str:
     """Whether mbla or clarabel takes a program, by what was asked for, by its shape and by its size."""
     if solver == "clarabel" or not fits(cone_program):
@@ -94,9 +88,8 @@ class _OneThenOther:
     def solve(self, program_number: int, to_load_factor: float) -> ConeSolution:
         return self._either(self.first.solve(program_number, to_load_factor), program_number, to_load_factor)
 
-    def solve_once(self, program_number: int, to_load_factor: float, enough: float = 0.0) -> ConeSolution:
-        solution = self.first.solve_once(program_number, to_load_factor, enough)
-        return self._either(solution, program_number, to_load_factor)
+    def solve_once(self, program_number: int, to_load_factor: float) -> ConeSolution:
+        return self._either(self.first.solve_once(program_number, to_load_factor), program_number, to_load_factor)
 
     def update(self, *, cost: FloatArray | None = None, rhs: FloatArray | None = None) -> None:
         """Change cost, (n_unknowns,), or right-hand side, (n_constraints,); the matrix stays."""

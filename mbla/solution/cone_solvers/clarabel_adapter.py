@@ -76,8 +76,6 @@ class ClarabelProgram:
     _solver: Any = field(init=False, default=None)
     _raised: BaseException | None = field(init=False, default=None)
     _logged: int = field(init=False, default=-1)
-    _enough: float = field(init=False, default=0.0)
-    _had_enough: bool = field(init=False, default=False)
 
     def solve(self, program_number: int, to_load_factor: float) -> ConeSolution:
         """Solve what is loaded; where the solver does not finish, again with settings that are easier for it.
@@ -94,16 +92,12 @@ class ClarabelProgram:
             solution = again if again.status not in UNDECIDED or solution.status is not Status.APPROXIMATE else solution
         return solution
 
-    def solve_once(self, program_number: int, to_load_factor: float, enough: float = 0.0) -> ConeSolution:
+    def solve_once(self, program_number: int, to_load_factor: float) -> ConeSolution:
         """Solve what is loaded once, for callers that judge the answer themselves.
-
-        enough : residuals and gap at which to stop, well inside the cones; the status is APPROXIMATE then
 
         Raises SolverError if the data are not finite or the solver's status is not known, and whatever ``log`` raises.
         """
         import clarabel
-
-        self._enough, self._had_enough = enough, False
 
         self._check_finite()
         started, self._logged = time.perf_counter(), -1
@@ -125,7 +119,7 @@ class ClarabelProgram:
         if name not in STATUS_MAP:
             raise SolverError("solver-status", f"clarabel returned a status that is not known: {name}")
         return ConeSolution(
-            status=Status.APPROXIMATE if self._had_enough else STATUS_MAP[name],
+            status=STATUS_MAP[name],
             solver_status=name,
             x=np.asarray(result.x),
             z=np.asarray(result.z),
@@ -199,10 +193,7 @@ class ClarabelProgram:
             except BaseException as error:  # the solver would print it and go on: kept, and raised after solve()
                 self._raised = error
                 return True
-            if signalled() or (deadline is not None and time.monotonic() > deadline):
-                return True
-            self._had_enough = max(info.gap_rel, info.res_primal, info.res_dual) <= self._enough
-            return self._had_enough
+            return signalled() or (deadline is not None and time.monotonic() > deadline)
 
         return callback
 

@@ -10,7 +10,6 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.program.kinematic import ConeProgram
-from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import WITH_VALUE, IterationRecord, ProgramRecord, Status
 
 Log = Callable[[IterationRecord], None]
@@ -88,14 +87,6 @@ class ConeSolver(Protocol):
         """Change cost, (n_unknowns,), or right-hand side, (n_constraints,); the matrix stays."""
         ...
 
-    @property
-    def settings(self) -> SolverSettings:
-        """Those of the next run."""
-        ...
-
-    def solve_once(self, program_number: int, to_load_factor: float, enough: float = 0.0) -> ConeSolution:
-        """Solve what is loaded once, for callers that judge the answer themselves.
-
-        enough : residuals and gap at which to stop, well inside the cones; the status is APPROXIMATE then
-        """
+    def solve_once(self, program_number: int, to_load_factor: float) -> ConeSolution:
+        """Solve what is loaded once, for callers that judge the answer themselves."""
         ...

@@ -9,8 +9,6 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-import numpy as np
-
 from mbla.solution.flow.fall import ELASTIC, Fall
 from mbla.solution.flow.gravity_step import Gravity
 from mbla.solution.flow.path_record import ElasticPath, PathStep, Stop
@@ -105,7 +103,6 @@ class _Path:
         sigma = self.force**2 / (self.settings.smoothing * h)
         step = JointStep(self.joints, self.memory, h)
         start = centred(self.joints, at_rest_of(step, self.state, sigma), sigma, 0.95)
-        step = PeakStep(step, sigma, start, self.displacement + length)
-        there, spent = solved_peak(step, self.force)
+        there, spent = solved_peak(PeakStep(step, sigma, start, self.displacement + length), self.force)
         self.factorizations += spent
         return there

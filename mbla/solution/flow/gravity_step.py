@@ -30,8 +30,8 @@ from mbla.solution.law.newton import by_newton
 from mbla.solution.nonassociative.imbalance import imbalance
 from mbla.solution.nonassociative.law_state import LawState
 
-NEWTON, ROUNDING = 20, 1e-11
-"""Iterations of Newton's method at most, and force without balance, in mean loads of a block, with which it is solved."""
+NEWTON = 20
+"""Iterations of Newton's method at most."""
 
 STEPS = 100
 """At most; 10 to 25 are usual where a dead load is carried."""
@@ -145,9 +145,9 @@ def _at_rest(step: JointStep, state: StepState, force: float, spent: int) -> Gra
 def _exactly(step: JointStep) -> tuple[StepState | None, int]:
     """The state by Newton's method, None where that comes to none that carries the dead load; factorisations."""
     joints = step.joints
-    found = by_newton(step, np.zeros(len(joints.program.dead_load)), 0.0, most=NEWTON, balanced=ROUNDING)
+    found = by_newton(step, np.zeros(len(joints.program.dead_load)), 0.0, most=NEWTON)
     state = found.state_of(step)
-    solved = found.unbalanced <= ROUNDING and _is_carried(joints, state)
+    solved = found.is_solved and _is_carried(joints, state)
     return state if solved else None, found.iterations
 
 

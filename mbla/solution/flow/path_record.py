@@ -95,7 +95,7 @@ class ElasticPath:
     @property
     def gain(self) -> float:
         """Share of the greatest load factor that was gained over the last half of the path; 0 where it ends before."""
-        if self.peak is None or self.half is None:
+        if self.peak is None or self.half is None or self.load_factor == 0.0:
             return 0.0
         return 1.0 - self.half.state.factor / self.load_factor
 

@@ -16,7 +16,7 @@ from mbla.solution.law.elastic_joints import ElasticJoints, Memory, StepState, s
 from mbla.solution.law.exact_law import misfit
 from mbla.solution.law.joint_equations import JointStep, residual_of
 from mbla.solution.law.joint_step import direction_of, length_of
-from mbla.solution.law.newton import by_newton
+from mbla.solution.law.newton import ROUNDING, by_newton
 
 OF_FLOOR = 0.3
 """Least product N y at the beginning of a step, over the one wanted."""
@@ -105,8 +105,8 @@ EXACT, EXACT_OF_LAWS, STEPS = 1e-6, 3e-5, 80
 """Misfit of the law with which the step is solved; the same where interfaces have a law of their own, with which the
 load factor of a dome is at rest to six digits; and directions at most."""
 
-NEWTON, ROUNDING = 8, 1e-11
-"""Iterations of Newton's method at most, and force without balance, in mean loads of a block, with which it ends."""
+NEWTON = 8
+"""Iterations of Newton's method at most."""
 
 BLOCKED, AGAIN = 0.05, (1e3, 10.0, 1e5)
 """Reach of a direction below which, twice running, the step starts again from the central path, and the products there
@@ -161,7 +161,7 @@ def _by_newton(peak: PeakStep, force: float) -> tuple[PeakStep, int]:
     """The step solved by Newton's method from its state, as given where that comes to nothing; factorisations."""
     if peak.step.joints.laws or peak.misfit <= ROUNDING:
         return peak, 0
-    found = by_newton(peak.step, peak.state.u, peak.state.factor, most=NEWTON, balanced=ROUNDING)
+    found = by_newton(peak.step, peak.state.u, peak.state.factor, most=NEWTON)
     state = found.state_of(peak.step)
     there = replace(peak, state=state, misfit=misfit(peak.step, state, force))
-    return (there if there.misfit < min(peak.misfit, EXACT) else peak), found.iterations
+    return (there if found.is_solved and there.misfit < peak.misfit else peak), found.iterations

@@ -21,6 +21,10 @@ from mbla.solution.law.exact_law import forces_by_law
 from mbla.solution.law.joint_equations import JointStep
 from mbla.solution.law.return_map import JointForces, joint_tangents
 
+ROUNDING, SHARPEST = 1e-11, 1e-14
+"""Force without balance, in mean loads of a block, with which a step is solved, and with which iterations end: a block
+of a millionth of the mean load must be in balance too."""
+
 BACKTRACKS, FALL = 8, 1e-4
 """Times that an iteration is halved until what is without balance falls, and the least share of that, of its length."""
 
@@ -41,6 +45,11 @@ class NewtonState:
     unbalanced: float
     iterations: int
 
+    @property
+    def is_solved(self) -> bool:
+        """Whether the step is solved to rounding."""
+        return self.unbalanced <= ROUNDING
+
     def state_of(self, step: JointStep) -> StepState:
         """The same as a state of a step, without products."""
         none = np.zeros_like(self.forces.normal)
@@ -50,7 +59,7 @@ class NewtonState:
 
 @np.errstate(over="ignore", invalid="ignore")  # iterations that diverge are seen and given up
 def by_newton(
-    step: JointStep, u: FloatArray, factor: float, *, most: int, balanced: float, shift: float = 0.0
+    step: JointStep, u: FloatArray, factor: float, *, most: int, balanced: float = SHARPEST, shift: float = 0.0
 ) -> NewtonState:
     """The last iterate; whether it solves the step what it leaves without balance says.
 
@@ -73,7 +82,7 @@ def by_newton(
 
 
 def _residual(step: JointStep, u: FloatArray, factor: float) -> tuple[FloatArray, JointForces]:
-    """Unbalanced forces and f_L·u − w, (n_rows + 1,), the latter 0 where the load factor stays; forces of the joints."""
+    """Unbalanced forces and f_L·u − w, (n_rows + 1,), 0 where the load factor stays; forces of the joints."""
     joints, program = step.joints, step.joints.program
     forces = forces_by_law(step, u)
     balance = joints.carried(forces.normal, forces.shear) + program.dead_load + factor * program.live_load

@@ -6,8 +6,8 @@ it falls. Such a state is taken further, by
 
 1. its own forces, repaired to balance every block: a light block between two of 1e6 times its weight, out of balance by
    1.6e-5 of what it carries, comes to 1e-16;
-2. steps of the exact law (:mod:`mbla.solution.law.newton`) from its own forces, to the rounding of the forces instead of
-   that of the mean load. Measured on a block of weight 1 that is pushed past one of 1e8: 0.399956 becomes 0.4;
+2. steps of the exact law (:mod:`mbla.solution.law.newton`) from its own forces, to the rounding of the forces instead
+   of that of the mean load. Measured on a block of weight 1 that is pushed past one of 1e8: 0.399956 becomes 0.4;
 3. the associative state, where forces and mechanism fit this law as they are: nothing slides in it that would have to
    lift. On a light block upon a heavy one, 1e8 apart, the steps break down, and blocks rock at the associative factor.
 

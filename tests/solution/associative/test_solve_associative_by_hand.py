@@ -45,31 +45,6 @@ def answer(program: Program, status: Status) -> ConeSolution:
     return replace(solution, status=status, solver_status=f"said {status}")
 
 
-@pytest.mark.parametrize("solver", ["auto", "clarabel"])
-def test_the_other_method_is_asked_where_one_breaks_down(solver: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Whether the dead load is carried, as long as the choice of the solver is free."""
-    program = sliding()
-    broken = answer(program, Status.NUMERICAL_ERROR)
-    asked: list[str] = []
-
-    def reverse(run: AssociativeRun, form: object, settings: SolverSettings) -> tuple[ConeSolution, bool]:
-        asked.append(settings.solver)
-        return broken, len(asked) == 2
-
-    monkeypatch.setattr(associative, "_reversed", reverse)
-    result = result_of(program, replace(SETTINGS, solver=solver))
-    if solver == "auto":
-        assert asked == ["auto", "mbla"]
-        assert result.status is Status.SOLVED
-        assert result.state is not None
-        assert program.scaling.load_factor(result.state.load_factor) == pytest.approx(0.5, rel=1e-7)
-    else:
-        assert asked == ["clarabel"]
-        assert result.status is Status.NUMERICAL_ERROR
-        assert result.state is None
-        assert "the dead load alone is carried could not be decided: the solver broke down numerically" in result.reason
-
-
 @pytest.mark.parametrize(
     ("status", "claimed", "words"),
     [
@@ -84,7 +59,8 @@ def test_without_a_proof_that_the_dead_load_is_carried_there_is_no_load_factor(
     """A lack of equilibrium that no mechanism proves is none either."""
     program = sliding()
     without = answer(program, status)
-    monkeypatch.setattr(associative, "_reversed", lambda *arguments: (without, False))
+    monkeypatch.setattr(associative, "solved_once", lambda *arguments: without)
+    monkeypatch.setattr(associative, "_carried", lambda *arguments: False)
     monkeypatch.setattr(associative, "proved_certificate", lambda *arguments: None)
     result = result_of(program)
     assert result.status is claimed

@@ -71,17 +71,6 @@ def test_what_the_log_raises_stops_the_solver_and_arrives(error: BaseException |
         ClarabelProgram(held.cone_program, held.settings, log).solve(1, 1.0)
 
 
-def test_a_rough_answer_is_not_called_solved() -> None:
-    held = program_of()
-    whole = held.solve_once(1, 1.0)
-    rough = held.solve_once(2, 1.0, enough=1e-2)
-    again = held.solve_once(3, 1.0)
-    assert (whole.status, rough.status, again.status) == (Status.SOLVED, Status.APPROXIMATE, Status.SOLVED)
-    assert 0 < rough.iterations < whole.iterations == again.iterations
-    assert rough.objective == pytest.approx(whole.objective, rel=0.1)
-    assert rough.objective != pytest.approx(whole.objective, rel=1e-6)
-
-
 def test_regularisation_follows_kind_and_size_unless_given() -> None:
     program = program_of().cone_program
     many = replace(program, cost=np.zeros(3001))

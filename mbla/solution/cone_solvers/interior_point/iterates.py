@@ -175,21 +175,18 @@ class Outcome(Enum):
     TIME = "MaxTime"
     STALLED = "InsufficientProgress"
     NUMERICAL = "NumericalError"
-    ENOUGH = "AlmostSolved, as asked"
 
 
 @dataclass(frozen=True)
 class Run:
     """What a run needs beside the data.
 
-    enough   : accuracy at which to stop early, well inside the cones; 0: only at the end
     progress : gets every iterate's number, measures and the length of the step that led there
     """
 
     tolerance: float
     max_iterations: int
     deadline: float | None
-    enough: float
     progress: Callable[[int, Measures, float], None]
 
 
@@ -288,4 +285,4 @@ def _verdict(measures: Measures, run: Run) -> Outcome | None:
         return Outcome.INFEASIBLE
     if measures.unbounded <= run.tolerance:
         return Outcome.UNBOUNDED
-    return Outcome.ENOUGH if measures.worst <= run.enough else None
+    return None

@@ -17,7 +17,7 @@ from mbla.program.kinematic import ConeProgram
 from mbla.solution.cone_solvers.cone_solution import ConeSolution, Log
 from mbla.solution.cone_solvers.interior_point.condensation import Condensation
 from mbla.solution.cone_solvers.interior_point.cones import ConeData, cone_data
-from mbla.solution.cone_solvers.interior_point.iterates import Ended, Measures, Outcome, Point, Run, warm_start
+from mbla.solution.cone_solvers.interior_point.iterates import Ended, Measures, Outcome, Run, warm_start
 from mbla.solution.cone_solvers.interior_point.method import solve_cone_program
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import IterationRecord, Status
@@ -30,7 +30,6 @@ MOST_EQUATIONS = 8
 STATUSES = {
     Outcome.SOLVED: Status.SOLVED,
     Outcome.ALMOST: Status.APPROXIMATE,
-    Outcome.ENOUGH: Status.APPROXIMATE,
     Outcome.INFEASIBLE: Status.UNBOUNDED,
     Outcome.UNBOUNDED: Status.NO_EQUILIBRIUM,
     Outcome.ITERATIONS: Status.ITERATION_LIMIT,
@@ -55,18 +54,13 @@ class CondensedProgram:
     _data: ConeData | None = field(init=False, default=None)
     _condensation: Condensation | None = field(init=False, default=None)
     _near: tuple[FloatArray, FloatArray] | None = field(init=False, default=None)
-    _paused: Point | None = field(init=False, default=None)
-    _solved: Point | None = field(init=False, default=None)
 
     def solve(self, program_number: int, to_load_factor: float) -> ConeSolution:
         """Solve what is loaded; see ``ConeSolver``."""
         return self.solve_once(program_number, to_load_factor)
 
-    def solve_once(self, program_number: int, to_load_factor: float, enough: float = 0.0) -> ConeSolution:
+    def solve_once(self, program_number: int, to_load_factor: float) -> ConeSolution:
         """Solve what is loaded, for callers that judge the answer themselves.
-
-        enough : residuals and gap at which to stop, well inside the cones; the status is APPROXIMATE then, and the next
-                 run of the same program goes on from there
 
         Raises SolverError if the data are not finite.
         """
@@ -74,35 +68,20 @@ class CondensedProgram:
         started = time.perf_counter()
         data, condensation = self.prepared()
         progress, settings = self._progress(program_number, to_load_factor, started), self.settings
-        run = Run(settings.tolerance, settings.max_iterations, settings.deadline, enough, progress)
+        run = Run(settings.tolerance, settings.max_iterations, settings.deadline, progress)
         ended, iterations = self._from_near(data, condensation, run)
         if ended is None:
-            ended = solve_cone_program(data, condensation, run, self._paused)
+            ended = solve_cone_program(data, condensation, run)
             iterations += ended.iterations
-        self._paused = ended.point if ended.outcome is Outcome.ENOUGH else None
-        self._solved = ended.point if ended.outcome is Outcome.SOLVED else None
         solution = self._solution(data, ended, iterations, time.perf_counter() - started)
         if ended.outcome is Outcome.SOLVED:
             self._near = solution.x, solution.z  # where the next program of this object starts
         return solution
 
-    def sharpen(self, tolerance: float) -> bool:
-        """Let the next run of the same program go on from where this one was solved, to a smaller tolerance.
-
-        That is the run which the smaller tolerance would have made from the beginning, without its first part. False
-        where there is nothing to go on from.
-        """
-        if self._solved is None:
-            return False
-        self.settings = replace(self.settings, tolerance=tolerance)
-        self._paused, self._near = self._solved, None
-        return True
-
     def update(self, *, cost: FloatArray | None = None, rhs: FloatArray | None = None) -> None:
         """Change cost, (n_unknowns,), or right-hand side, (n_constraints,); the matrix stays."""
         old = self.cone_program
         self.cone_program = replace(old, cost=old.cost if cost is None else cost, rhs=old.rhs if rhs is None else rhs)
-        self._paused = self._solved = None
         if self._data is not None:
             self._data = self._data.changed(self.cone_program)
 
@@ -112,10 +91,9 @@ class CondensedProgram:
             return None, 0
         x, z = self._near
         n_e = len(data.equation_rhs)
-        ended = solve_cone_program(
-            data, condensation, run, warm_start(data, x, z[:n_e], np.append(z[n_e:], 0.0)[data.order])
-        )
-        if ended.outcome in (Outcome.SOLVED, Outcome.ENOUGH, Outcome.TIME):
+        near = warm_start(data, x, z[:n_e], np.append(z[n_e:], 0.0)[data.order])
+        ended = solve_cone_program(data, condensation, run, near)
+        if ended.outcome in (Outcome.SOLVED, Outcome.TIME):
             return ended, ended.iterations
         return None, ended.iterations
 

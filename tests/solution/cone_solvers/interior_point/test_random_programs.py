@@ -13,8 +13,8 @@ import sys
 
 import pytest
 
-from mbla.solution.associative.proved_answer import ACCEPTED_GAP
 from mbla.solution.solution import Status
+from mbla.solution.thresholds import GAP_TOLERANCE
 from tests.solution.cone_solvers.interior_point.random_programs import (
     Outcome,
     compared,
@@ -56,7 +56,7 @@ def test_rough_joints_have_a_load_factor_that_is_proved(seed: int) -> None:
     program = random_case(seed).program
     outcome = outcome_of(program, "mbla")
     assert outcome.result.status is Status.SOLVED
-    assert outcome.gap <= ACCEPTED_GAP
+    assert outcome.gap <= GAP_TOLERANCE
     assert contradiction(program, outcome, outcome_of(program, "clarabel")) == ""
 
 
