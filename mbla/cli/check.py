@@ -13,8 +13,7 @@ from mbla.model import build_model
 from mbla.model.model import LoadCase, select_cases
 from mbla.process.run_options import RunOptions
 from mbla.program.build import build_program
-from mbla.program.kinematic import ConeProgram, kinematic_form
-from mbla.program.resultants import convex_form
+from mbla.program.kinematic import kinematic_form
 from mbla.results.files import OutputFolder
 from mbla.results.provenance import CaseNeeds, results_before
 from mbla.results.results import Results
@@ -53,25 +52,17 @@ def needs_of(deck: Deck, assembly: Assembly, load_case: LoadCase) -> CaseNeeds:
     """What of the model reaches the solver, the size of its first cone programs, and who solves them."""
     analysis = settings_for(load_case, solver_settings(deck.analysis)).analysis
     built = build_program(assembly, load_case, analysis)
-    reduced, convex = built.reduced, built.convex
-    if convex is not None:
-        unknowns, programs = len(convex.program.dead_load), [convex_form(convex).cone_program]
-    else:
-        unknowns = sum(len(part.dead_load) for part in reduced.parts)
-        programs = [kinematic_form(part, part.limits).cone_program for part in reduced.parts if np.any(part.live_load)]
+    reduced = built.reduced
+    unknowns = sum(len(part.with_own_motions.dead_load) for part in reduced.parts)
+    programs = [kinematic_form(part, part.limits).cone_program for part in reduced.parts if np.any(part.live_load)]
     further = [size for program in programs for size in program.further_cones]
     counts = asdict(reduced.size) | {
         "unknown_velocities": unknowns,
         "cones": sum(program.n_cones for program in programs) + sum(size > 1 for size in further),
         "half_lines": sum(program.n_half_lines for program in programs) + further.count(1),
         "matrix_entries": sum(int(program.matrix.nnz) for program in programs),
-        "solver": ", ".join(dict.fromkeys(_solver(deck, program, convex is not None) for program in programs)),
+        "solver": ", ".join(
+            dict.fromkeys(interior_point_method(program, deck.analysis.solver) for program in programs)
+        ),
     }
     return CaseNeeds(counts, reduced.steps)
-
-
-def _solver(deck: Deck, program: ConeProgram, conditions: bool) -> str:
-    """Of the associative program; conditions on interfaces have cones of dimensions that clarabel alone takes."""
-    if conditions:
-        return "clarabel"
-    return interior_point_method(program, deck.analysis.solver)

@@ -20,9 +20,11 @@ from mbla.errors import Notice
 from mbla.model.model import LoadCase, Model
 from mbla.process.stopwatch import stage
 from mbla.program.assemble import assemble
-from mbla.program.reductions import Reduced, allowed_reductions, reduce_program, unreduced
+from mbla.program.reductions import Reduced, allowed_reductions, reduce_program
 from mbla.program.reductions.steps import glued_step
-from mbla.program.resultants.assemble import ConvexProgram, assemble_convex, size_of_convex
+from mbla.program.resultants.conditions_of import with_conditions_of
+from mbla.program.resultants.interface_motions import CrushingInterfaces
+from mbla.program.resultants.twisting_interfaces import TwistingInterfaces
 
 
 @dataclass(frozen=True)
@@ -32,13 +34,14 @@ class CaseProgram:
     bodies    : what is solved for, and the way back to the blocks
     load_case : on the bodies
     reduced   : of the contact points: its parts, and what each reduction left out
-    convex    : with conditions on interfaces, solved together by associative flow; None where there are none
+    crushing, twisting : conditions on interfaces that the programs of the parts have; None where there are none
     """
 
     bodies: RigidBodies
     load_case: LoadCase
     reduced: Reduced
-    convex: ConvexProgram | None = None
+    crushing: CrushingInterfaces | None = None
+    twisting: TwistingInterfaces | None = None
 
 
 @stage("assemble")
@@ -46,16 +49,14 @@ def build_program(assembly: Assembly, load_case: LoadCase, analysis: AnalysisSec
     """The program of a load case on blocks by the contact model, the flow rule and the reductions of the analysis."""
     bodies = assembly.of(load_case)
     model, contacts, case = bodies.model, bodies.contacts, bodies.load_case(load_case)
-    convex, associative = None, analysis.flow_rule == "associative"
-    if has_conditions_on_interfaces(analysis, model, contacts):
-        convex = assemble_convex(model, contacts, case, analysis.contact_model)
-    if convex is not None and associative:
-        as_it_is = unreduced(convex.points, contacts)
-        return CaseProgram(bodies, case, replace(as_it_is, steps=(glued_step(bodies, size_of_convex(convex)),)), convex)
+    associative = analysis.flow_rule == "associative"
+    crushing = CrushingInterfaces.of(model, contacts) if crushes_by_interfaces(analysis, model, contacts) else None
+    twisting = TwistingInterfaces.of(model, contacts) if analysis.contact_model == "convex" else None
     program = assemble(model, contacts, case)
     reduced = reduce_program(model, contacts, program, allowed_reductions(analysis), associative=associative)
     steps = (glued_step(bodies, reduced.steps[0].before), *reduced.steps)
-    return CaseProgram(bodies, case, replace(reduced, steps=steps), convex)
+    parts = tuple(with_conditions_of(part, crushing, twisting) for part in reduced.parts)
+    return CaseProgram(bodies, case, replace(reduced, parts=parts, steps=steps), crushing, twisting)
 
 
 def crushable_interfaces(model: Model, contacts: Contacts) -> BoolArray:
@@ -68,6 +69,11 @@ def has_conditions_on_interfaces(analysis: AnalysisSection, model: Model, contac
     """Whether the program has conditions on interfaces; without, joints crush at their contact points."""
     if analysis.contact_model == "convex":
         return True
+    return crushes_by_interfaces(analysis, model, contacts)
+
+
+def crushes_by_interfaces(analysis: AnalysisSection, model: Model, contacts: Contacts) -> bool:
+    """Whether joints crush by the resultants of their interfaces."""
     return takes_stress_blocks(analysis) and bool(crushable_interfaces(model, contacts).any())
 
 

@@ -79,6 +79,11 @@ class KinematicForm:
         """Non-dimensional velocities of the free blocks, (n_rows,)."""
         return x[: len(self.program.dead_load)]
 
+    def of_conditions(self, x: FloatArray) -> FloatArray:
+        """Unknowns of the conditions on interfaces, (n_unknowns,)."""
+        n, conditions = len(self.program.dead_load), self.program.conditions
+        return x[n : n if conditions is None else n + len(conditions.cost)]
+
     def contact_forces(self, z: FloatArray) -> FloatArray:
         """Non-dimensional contact forces from the dual variables, (n_points, components)."""
         rows, limits = self.rows, self.limits
@@ -111,13 +116,16 @@ def kinematic_form(program: Program, limits: YieldLimits, *, reduce_dry: bool = 
 
     reduce_dry : False keeps the multiplier p at dry points too, so that a later cohesion changes the cost alone
     """
-    rows = _point_rows(limits, reduce_dry)
+    rows, conditions, moving = _point_rows(limits, reduce_dry), program.conditions, program.with_own_motions
     n_shear = len(rows.dry) + len(rows.frictional)
-    matrix, planar = _matrix(program, limits, rows), program.components == 2
+    matrix, planar = _matrix(moving, limits, rows), program.components == 2
+    if conditions is not None:
+        matrix = _with_cones(matrix, conditions.cones, len(program.dead_load))
     cone_program = ConeProgram(
         cost=_cost(program, limits, rows),
         matrix=matrix,
         rhs=_rhs(program, limits, rows, np.zeros(program.n_points), 1.0),
+        further_cones=() if conditions is None else tuple(conditions.cone_sizes.tolist()),
         n_half_lines=len(rows.cut_off) + len(rows.crushing) + (2 * n_shear if planar else 0),
         n_cones=0 if planar else n_shear,
         n_local=len(rows.frictional) + len(rows.crushing),
@@ -125,12 +133,22 @@ def kinematic_form(program: Program, limits: YieldLimits, *, reduce_dry: bool = 
     return KinematicForm(program, limits, rows, cone_program)
 
 
+def _with_cones(matrix: sp.csc_array, cones: sp.csr_array, first: int) -> sp.csc_array:
+    """The rows of further cones below a matrix, whose unknowns begin at column ``first``."""
+    n_rows, last = cones.shape[0], matrix.shape[1] - first - cones.shape[1]
+    below = sp.hstack([sp.csr_array((n_rows, first)), -cones, sp.csr_array((n_rows, last))])
+    whole = sp.csc_array(sp.vstack([matrix, below]))
+    whole.sort_indices()
+    return whole
+
+
 def _rhs(program: Program, limits: YieldLimits, rows: PointRows, weight: FloatArray, live_power: float) -> FloatArray:
     """``KinematicForm.rhs_for``."""
     dry, width = weight[rows.dry] / limits.friction[rows.dry], program.components
     shear = np.zeros((len(rows.dry) + len(rows.frictional), width))
     shear[: len(dry), : 1 if width == 3 else width] = dry[:, None]
-    return np.concatenate([[live_power], weight[rows.cut_off], np.zeros(len(rows.crushing)), shear.ravel()])
+    further = np.zeros(0 if program.conditions is None else program.conditions.cones.shape[0])
+    return np.concatenate([[live_power], weight[rows.cut_off], np.zeros(len(rows.crushing)), shear.ravel(), further])
 
 
 def _point_rows(limits: YieldLimits, reduce_dry: bool) -> PointRows:
@@ -216,6 +234,7 @@ def _selection(columns: IntArray, values: FloatArray, n_columns: int) -> sp.csr_
 
 
 def _cost(program: Program, limits: YieldLimits, rows: PointRows) -> FloatArray:
+    program = program.with_own_motions
     tension = np.zeros(program.n_points)
     tension[rows.cut_off] = limits.tension[rows.cut_off]
     on_normal = np.zeros((program.n_points, program.components))

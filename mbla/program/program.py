@@ -17,6 +17,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from mbla.arrays import FloatArray
+from mbla.program.conditions import Conditions
 from mbla.program.facts import ModelFacts
 from mbla.program.lift import Lift
 from mbla.program.yield_conditions.limits import YieldLimits
@@ -70,6 +71,7 @@ class Program:
     of_blocks          : the way back to the program whose rows are those of blocks, where guides or a plane of symmetry
                          leave fewer; None where its own are
     guided             : it is in motions that guides allow
+    conditions         : on the resultants of interfaces; None where there are none
     """
 
     equilibrium_matrix: sp.csr_array
@@ -82,10 +84,25 @@ class Program:
     reduction: Lift | None = None
     of_blocks: Lift | None = None
     guided: bool = False
+    conditions: Conditions | None = None
 
     def contact_velocities(self, velocities: FloatArray) -> FloatArray:
         """Aᵀu, (n_points, components), from (n_rows,)."""
         return np.asarray((self.equilibrium_matrix.T @ velocities).reshape(-1, self.components))
+
+    @property
+    def with_own_motions(self) -> Program:
+        """The program with the unknowns of its conditions behind the velocities of the blocks: v = Aᵀu − RᵀGᵀζ."""
+        conditions = self.conditions
+        if conditions is None:
+            return self
+        return replace(
+            self,
+            equilibrium_matrix=sp.csr_array(sp.vstack([self.equilibrium_matrix, -conditions.velocities.T])),
+            dead_load=np.concatenate([self.dead_load, -conditions.cost]),
+            live_load=np.concatenate([self.live_load, np.zeros(len(conditions.cost))]),
+            conditions=None,
+        )
 
     @property
     def lift(self) -> Lift:

@@ -71,7 +71,8 @@ def mechanics_of(program: Program, state: LawState, flow_rule: str = "non_associ
     """Mechanics of the model from a state of a program, reduced or not, that was found by the given flow rule."""
     program, state = program.full, lifted(program, state)
     scaling = program.scaling
-    velocities = state.velocities / (program.live_load @ state.velocities)
+    live_power = float(program.live_load @ state.velocities)
+    velocities = state.velocities / live_power
     contact_forces = scaling.forces(state.forces)
     velocities_of_points = contact_velocities(program, velocities)
     limits = program.limits.scaled(scaling.force * scaling.units)  # in the deck's units
@@ -82,7 +83,9 @@ def mechanics_of(program: Program, state: LawState, flow_rule: str = "non_associ
         contact_velocities=velocities_of_points,
         mechanism=program.mechanism(velocities),
         modes=contact_modes(contact_forces, velocities_of_points, limits, limits.dilatancy_by(flow_rule)),
-        interface_motions=None if state.motions is None else state.motions * (scaling.live / scaling.force),
+        interface_motions=None
+        if state.motions is None
+        else state.motions * (scaling.live / scaling.force / live_power),
         **history,
     )
 
@@ -107,6 +110,19 @@ def motion_of(program: Program, velocities: FloatArray) -> FloatArray:
     motion = program.mechanism(velocities)
     largest = np.abs(motion).max(initial=0.0)
     return motion / largest if largest > 0 else motion
+
+
+def certificate_of(program: Program, velocities: FloatArray) -> tuple[FloatArray, FloatArray | None]:
+    """Motion of all blocks, (n_blocks, 6), largest entry 1, and that of the interfaces, (n_interfaces, 2, 6).
+
+    velocities : of a program, reduced or not, unknowns of its conditions on interfaces behind; None without such
+    """
+    blocks, unknowns = np.split(velocities, [len(program.dead_load)])
+    motion, conditions, scaling = program.mechanism(blocks), program.conditions, program.scaling
+    largest = max(float(np.abs(motion).max(initial=0.0)), 1e-300)
+    if conditions is None:
+        return motion / largest, None
+    return motion / largest, conditions.moved(unknowns) * (scaling.live / scaling.force / largest)
 
 
 def forces_of(program: Program, forces: FloatArray) -> FloatArray:

@@ -13,6 +13,7 @@ import numpy as np
 from mbla.errors import Message
 from mbla.program.program import Program
 from mbla.solution.associative.certificate import steepest_fall
+from mbla.solution.associative.heavy_loads import solved_under_heavy_loads
 from mbla.solution.associative.solve_associative import AssociativeResult, solve_associative
 from mbla.solution.cone_solvers.cone_solution import Log
 from mbla.solution.law.interfaces import NONE, Interfaces
@@ -69,6 +70,7 @@ def _by_flow_rule(program: Program, settings: SolverSettings, log: Log, interfac
     if not np.any(program.live_load):
         return _unloaded_part(program, settings, log)
     associative = solve_associative(program, settings, log, stress_free=settings.standing)
+    associative = solved_under_heavy_loads(program, associative, interfaces, settings, log)
     result = PartResult(program, associative, None, loaded=True)
     flow_rule = settings.analysis.flow_rule
     if flow_rule == "associative" or not (associative.state or associative.status is Status.UNBOUNDED):

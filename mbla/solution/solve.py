@@ -20,10 +20,11 @@ from mbla.solution.cone_solvers.cone_solution import Log
 from mbla.solution.flow.path_record import Stop
 from mbla.solution.law.interfaces import NONE, Interfaces
 from mbla.solution.lifted import solution_on_blocks
-from mbla.solution.mechanics import mechanics_of, motion_of
+from mbla.solution.mechanics import certificate_of, mechanics_of
 from mbla.solution.nonassociative.law_state import LawState
 from mbla.solution.nonassociative.least_found import looks_lower
 from mbla.solution.nonassociative.locking import locking_forces
+from mbla.solution.of_interfaces import of_interfaces
 from mbla.solution.part import solve_part
 from mbla.solution.part_result import PartResult
 from mbla.solution.parts import assemble_parts, at_rest
@@ -101,17 +102,36 @@ def solve(program: CaseProgram, settings: SolverSettings, log: Log | None = None
 
     log : called once per iteration of a cone program, as it goes
     """
-    if program.convex is not None:
-        from mbla.solution.resultants.solve_convex import solve_with_interfaces  # late: interfaces are rarely needed
+    interfaces = NONE
+    if program.crushing is not None or program.twisting is not None:
+        interfaces = Interfaces(program.crushing, program.twisting)
+    solution = solve_parts(program.reduced, settings, log, interfaces, _with_torsion(program, settings))
+    return solution_on_blocks(_of_interfaces(program, settings, solution), program.bodies)
 
-        solution = solve_with_interfaces(program, settings, log)
-    else:
-        solution = solve_parts(program.reduced, settings, log, beside=_with_torsion(program, settings))
-        if solution.torsion is not None:
-            from mbla.solution.resultants.of_interfaces import torsion_of_interfaces
 
-            solution = replace(solution, torsion=torsion_of_interfaces(program, solution.torsion))
-    return solution_on_blocks(solution, program.bodies)
+def _of_interfaces(program: CaseProgram, settings: SolverSettings, solution: Solution) -> Solution:
+    """With what the interfaces do, where there are conditions on them."""
+    analysis, model, contacts = settings.analysis, program.bodies.model, program.bodies.contacts
+    if solution.torsion is not None:
+        beside = of_interfaces(model, contacts, "convex", solution.torsion, "non_associative")
+        solution = replace(solution, torsion=beside)
+    if program.crushing is None and program.twisting is None:
+        return solution
+
+    def of(mechanics: Mechanics | None, flow_rule: str) -> Mechanics | None:
+        if mechanics is None:
+            return None
+        return of_interfaces(model, contacts, analysis.contact_model, mechanics, flow_rule)
+
+    associative = of(solution.associative, "associative")
+    by_path = solution.mechanics is not solution.associative
+    return replace(
+        solution,
+        associative=associative,
+        mechanics=of(solution.mechanics, solution.flow_rule) if by_path else associative,
+        contact_model=analysis.contact_model,
+        stress_blocks=program.crushing is not None,
+    )
 
 
 def _with_torsion(program: CaseProgram, settings: SolverSettings) -> Interfaces:
@@ -119,10 +139,11 @@ def _with_torsion(program: CaseProgram, settings: SolverSettings) -> Interfaces:
     turned = program.load_case.tilt is not None and not program.load_case.tilt.tangent  # solved for many angles
     spatial = any(part.components == 3 for part in program.reduced.parts)
     model, contacts = program.bodies.model, program.bodies.contacts
-    at_points = crushable_interfaces(model, contacts).any()  # points that crush by themselves have no such law
+    # points that crush by themselves have no such law
+    at_points = program.crushing is None and crushable_interfaces(model, contacts).any()
     if turned or not spatial or at_points or not settings.by_torsion:
         return NONE
-    return Interfaces(twisting=TwistingInterfaces.of(model, contacts))
+    return Interfaces(program.crushing, TwistingInterfaces.of(model, contacts))
 
 
 def solve_parts(
@@ -221,9 +242,11 @@ def _without_load_factor(stage: _Stage, part: int, result: PartResult) -> Soluti
         lock = locking_forces(stage.parts, stage.settings, stage.log)
         if lock is None:
             status, reason = Status.NOT_VERIFIED, LOCK_NOT_PROVED
-    certificate = associative.certificate
-    motion = None if certificate is None else motion_of(stage.parts[part], certificate)
-    return replace(_solution(stage.settings, status, reason), certificate=motion, lock=lock)
+    motion, motions = None, None
+    if associative.certificate is not None:
+        motion, motions = certificate_of(stage.parts[part], associative.certificate)
+    solution = _solution(stage.settings, status, reason)
+    return replace(solution, certificate=motion, certificate_motions=motions, lock=lock)
 
 
 def _with_load_factor(stage: _Stage, results: Sequence[PartResult], first: int, first_associative: int) -> Solution:
@@ -234,7 +257,9 @@ def _with_load_factor(stage: _Stage, results: Sequence[PartResult], first: int, 
     solution = replace(
         _solution(stage.settings, *_claim(results, first)),
         tolerance_requested=_tolerance_requested(results),
-        associative=stage.mechanics(first_associative, solved[first_associative], "associative", solved),
+        associative=stage.mechanics(
+            first_associative, solved[first_associative], "associative", solved, stage.interfaces
+        ),
         lock=locking_forces(stage.parts, stage.settings, stage.log) if locked else None,
     )
     if analysis.force_ranges and result.state is not None:

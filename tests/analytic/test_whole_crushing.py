@@ -6,9 +6,7 @@ import numpy as np
 import pytest
 import shapely
 
-from mbla.program.resultants.assemble import assemble_convex
-from mbla.program.resultants.crushing import crushing_violation
-from tests.line import HEAD, factor_of, line_of
+from tests.line import HEAD, factor_of
 
 OUTLINES = {
     "rectangle": [(0.0, 0.0), (1.0, 0.0), (1.0, 0.5), (0.0, 0.5)],
@@ -76,15 +74,3 @@ def test_a_force_that_is_nearly_centred_both_ways_has_one_figure_in_every_unit(f
         factor_of(block("L", strength, (1e-3, 2e-3), size), *ways) for strength, size in ((1e12, 1.0), (1e9, 1e-3))
     ]
     assert found[0] == pytest.approx(found[1], rel=1e-7)
-
-
-def test_another_unit_of_force_leaves_the_limits_of_interfaces_where_they_are() -> None:
-    line = line_of(block("L", 1e6))
-    convex = assemble_convex(line.model, line.contacts, line.load_case, "convex")
-    other = convex.in_unit_of_force(8.0)
-    resultants = np.random.default_rng(3).normal(size=(len(line.contacts), 6))
-    assert other.points.scaling.force == 8.0 * convex.points.scaling.force
-    assert other.points.dead_load * 8.0 == pytest.approx(convex.points.dead_load)
-    found, same = crushing_violation(other.crushing, resultants / 8.0), crushing_violation(convex.crushing, resultants)
-    assert (found > 0).tolist() == (same > 0).tolist()
-    assert convex.in_unit_of_force(1.0) is convex

@@ -10,10 +10,8 @@ import pytest
 from mbla.arrays import FloatArray
 from mbla.program.kinematic import kinematic_form
 from mbla.program.program import Program
-from mbla.program.resultants.assemble import assemble_convex, convex_form
 from mbla.program.static import PointMotion, fixed_mechanism_form, gravity_form
 from mbla.program.yield_conditions import YieldLimits, yield_violation
-from tests.line import WALL, line_of
 from tests.program.random_points import balance, least_room, mixed_program, random_forces, slack
 
 BOTH = pytest.mark.parametrize("components", [2, 3])
@@ -145,16 +143,3 @@ def test_velocities_and_what_they_dissipate(components: int, reduce_dry: bool) -
         assert np.array_equal(form.velocities(x), u)
         seen.add(bool(allowed))
     assert seen == {False, True}
-
-
-def test_the_weight_that_stabilises_conditions_grows_with_the_blocks_up_to_its_most() -> None:
-    line = line_of(WALL, "parameters.n=4")
-    convex = assemble_convex(line.model, line.contacts, line.load_case, "convex")
-    n_free = len(line.model.free)
-    assert convex_form(convex).cone_program.quadratic is None
-    for blocks, weight in ((n_free, 1e-9 * n_free), (5000, 1e-7)):
-        facts = replace(convex.points.facts, free=np.arange(blocks))
-        many = replace(convex, points=replace(convex.points, facts=facts))
-        quadratic = convex_form(many, stabilised=1.0).cone_program.quadratic
-        assert quadratic is not None
-        assert quadratic == pytest.approx(np.full(len(quadratic), weight))

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from mbla.solution.associative import repair
+from mbla.solution.associative.condition_cones import ConditionCones
 from mbla.solution.associative.repair import repaired_forces
 from mbla.solution.associative.solve_associative import solve_associative
 from mbla.solution.nonassociative import livesley
@@ -50,7 +51,9 @@ def test_forces_whose_correction_is_no_number_are_not_repaired(monkeypatch: pyte
     assert repaired_forces(program, state.forces, state.load_factor) is not None
     nothing = np.full(len(program.live_load) + 1, np.nan)
     monkeypatch.setattr(repair, "bordered_solver", lambda *arguments: lambda rhs: nothing)
-    assert repair._static_correction(program, state.forces, state.load_factor) is None
+    further = ConditionCones.of(program)
+    forces = repair._Forces(state.forces, np.zeros(0), state.load_factor)
+    assert repair._static_correction(program, further, forces, repair.NORMAL) is None
     rough = state.forces + 1e-3
     assert repaired_forces(program, rough, state.load_factor) is None
 

@@ -1,9 +1,14 @@
 """Crushing of interfaces as stress blocks, in pieces that act side by side: conditions as functions of resultants.
 
-The conditions are those of :mod:`mbla.program.resultants.crushing`, with N' = N + f_t A, F = (f_c + f_t) A, written so
-that each is concave and has the dimension of a force::
+A stress σ between 0 and f_c carries N = ∫σ and first moments ∫σ x. What such fields carry over a parallelogram or a
+triangle is bounded by two kinds of inequalities, and by no others. With N' = N + f_t A and F = (f_c + f_t) A, for a
+tensile strength f_t shifts the origin exactly, each is concave and has the dimension of a force::
 
     edges    Q − (N'² + 3 P²)/F ≥ 0              corners   √(Q_1 Q_2) − L^1.5/√(K F) ≥ 0
+
+A corner holds with equality where full stress covers a triangle at it, or all but a triangle; an edge where full stress
+ends on both edges of the other pair: N(y), the force of the strip at y, has its first moment at least N(y)²/2f_c from
+the edge, and ∫N(y)² is least, with N and its moment along y given, where N(y) is linear.
 
 Q, P and L are linear in the resultants r of a piece; N', Q_i = N' ∓ P_i and those of the complement, F − N' and −P, for
 a parallelogram, of K = 9/8; for a triangle the forces at its corners, K = 9. Another convex outline is a fan of

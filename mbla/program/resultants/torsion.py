@@ -43,7 +43,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mbla.arrays import FloatArray, IntArray, starts
+from mbla.arrays import BoolArray, FloatArray, IntArray, starts
 from mbla.program.resultants.conditions import M1, M2, MN, T1, T2, ConditionRows, Entries, N
 from mbla.program.resultants.friction_curve import rectangle_curve
 from mbla.program.resultants.shapes import InterfaceShapes
@@ -74,6 +74,14 @@ class TorsionLimits:
     thetas: FloatArray
     corners: FloatArray
     start: IntArray
+
+    def only(self, chosen: BoolArray) -> TorsionLimits:
+        """Those of some of the interfaces, (n,)."""
+        counts = np.diff(self.start)
+        of_each = {
+            name: getattr(self, name)[chosen] for name in ("interfaces", "friction", "cohesion", "radii", "thetas")
+        }
+        return TorsionLimits(**of_each, corners=self.corners[np.repeat(chosen, counts)], start=starts(counts[chosen]))
 
 
 def torsion_limits(shapes: InterfaceShapes, friction: FloatArray, cohesion: FloatArray) -> TorsionLimits:

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from mbla.arrays import FloatArray
+from mbla.arrays import BoolArray, FloatArray
 
 
 @dataclass(frozen=True)
@@ -37,6 +37,10 @@ class YieldLimits:
         compression = np.where(np.isfinite(self.compression), np.minimum(self.compression, most), np.inf)
         cohesion, tension = np.minimum(self.cohesion, most), np.minimum(self.tension, most)
         return YieldLimits(self.friction, self.dilatancy, cohesion, tension, compression)
+
+    def without_crushing(self, points: BoolArray) -> YieldLimits:
+        """The same where some points, (n_points,), do not crush by themselves."""
+        return replace(self, compression=np.where(points, np.inf, self.compression))
 
     def dilatancy_by(self, flow_rule: str) -> FloatArray:
         """Tangent of the dilatancy angle that a flow rule asks of every contact point, (n_points,)."""

@@ -55,8 +55,14 @@ class AssociativeForm:
         return -float(solution.z[0])
 
     def velocities(self, solution: ConeSolution) -> FloatArray:
-        """Velocities of the mechanism or of a certificate, (n_rows,)."""
-        return self.kinematic.velocities(solution.x) / self.row_units
+        """Velocities of the mechanism or of a certificate, those of conditions behind, (n_rows + n_unknowns,)."""
+        kinematic, x = self.kinematic, solution.x
+        return np.concatenate([kinematic.velocities(x) / self.row_units, kinematic.of_conditions(x)])
+
+    def slacks(self, solution: ConeSolution) -> FloatArray | None:
+        """Of the conditions on interfaces, (n_slacks,); None where there are none."""
+        conditions = self.program.conditions
+        return None if conditions is None else solution.z[len(solution.z) - conditions.cones.shape[0] :]
 
 
 def associative_form(program: Program) -> AssociativeForm:

@@ -7,13 +7,14 @@ solver stage's own evaluation of the same, on the program alone.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.process.stopwatch import stage
 from mbla.program.program import Program
+from mbla.solution.associative.condition_cones import ConditionCones
 from mbla.solution.associative.repair import repaired_forces, repaired_mechanisms
 from mbla.solution.nonassociative.law_state import LawState
 
@@ -39,6 +40,8 @@ class CertifiedGap:
     gap               : their distance over the load factor, or over a thousandth of dead over live load if that is more
     forces, load_factor: the repaired forces, (n_points, components), and what they carry; as given where not repaired
     velocities        : (n_rows,) of the least kinematic bound
+    least             : load factor up to which it is taken for that in the gap
+    of_interfaces     : there are conditions on interfaces
     """
 
     static: float
@@ -47,14 +50,30 @@ class CertifiedGap:
     forces: FloatArray
     load_factor: float
     velocities: FloatArray
+    least: float = 0.0
+    of_interfaces: bool = False
+
+    def with_bounds_of(self, other: CertifiedGap) -> CertifiedGap:
+        """The greater static bound of two with its forces, and the lesser kinematic one with its velocities."""
+        forces = self if not other.static > self.static and np.isfinite(self.static) else other
+        velocities = self if not other.kinematic < self.kinematic and np.isfinite(self.kinematic) else other
+        static, kinematic = forces.static, velocities.kinematic
+        gap = abs(kinematic - static) / max(abs(kinematic), self.least, 1e-300)
+        return replace(forces, static=static, kinematic=kinematic, gap=gap, velocities=velocities.velocities)
 
 
 @stage("repair")
-def certified_gap(program: Program, state: LawState) -> CertifiedGap:
-    """Bounds of the associative load factor that a state proves; no solver is called."""
-    repaired = repaired_forces(program, state.forces, state.load_factor)
+def certified_gap(program: Program, state: LawState, slacks: FloatArray | None = None) -> CertifiedGap:
+    """Bounds of the associative load factor that a state proves; no solver is called.
+
+    state  : its velocities are (n_rows + n_unknowns,), those of conditions on interfaces behind those of the blocks
+    slacks : (n_slacks,) of these conditions
+    """
+    repaired = repaired_forces(program, state.forces, state.load_factor, slacks)
     forces, factor = (state.forces, state.load_factor) if repaired is None else repaired
     charge = CHARGED * float(np.abs(state.forces[:, 0]).max(initial=0.0))
+    if slacks is not None:
+        charge = max(charge, CHARGED * float(np.abs(slacks).max(initial=0.0)))
     mechanisms = list(repaired_mechanisms(program, state.velocities))
     values = [kinematic_value(program, u, charge) for u in mechanisms]
     best = int(np.argmin(np.nan_to_num(values, nan=np.inf)))
@@ -63,7 +82,7 @@ def certified_gap(program: Program, state: LawState) -> CertifiedGap:
         forces, factor, static = np.zeros_like(forces), 0.0, 0.0
     least = ZERO_FACTOR * factor_size(program)
     gap = abs(kinematic - static) / max(abs(kinematic), least, 1e-300)
-    return CertifiedGap(static, kinematic, gap, forces, factor, mechanisms[best])
+    return CertifiedGap(static, kinematic, gap, forces, factor, mechanisms[best], least, slacks is not None)
 
 
 def factor_size(program: Program) -> float:
@@ -86,8 +105,9 @@ def falling_motion(program: Program, velocities: FloatArray) -> FloatArray | Non
     velocities = velocities / largest
     charge = LOCKED_IN * float(np.abs(program.dead_load).sum())
     for u in repaired_mechanisms(program, velocities):
-        work = float(program.dead_load @ u) - dissipation(program, u, charge)
-        if work > WORK_ROUNDING * float(np.abs(program.dead_load) @ np.abs(u)):
+        blocks = u[: len(program.dead_load)]
+        work = float(program.dead_load @ blocks) - dissipation(program, u, charge)
+        if work > WORK_ROUNDING * float(np.abs(program.dead_load) @ np.abs(blocks)):
             return u
     return None
 
@@ -97,10 +117,11 @@ def kinematic_value(program: Program, velocities: FloatArray, charge: float) -> 
 
     charge : normal force with which the remaining incompatibility is charged
     """
-    live_power = float(program.live_load @ velocities)
+    blocks = velocities[: len(program.dead_load)]
+    live_power = float(program.live_load @ blocks)
     if not live_power > 0.0:
         return float("nan")
-    return float((dissipation(program, velocities, charge) - program.dead_load @ velocities) / live_power)
+    return float((dissipation(program, velocities, charge) - program.dead_load @ blocks) / live_power)
 
 
 def dissipation(program: Program, velocities: FloatArray, charge: float) -> float:
@@ -108,11 +129,13 @@ def dissipation(program: Program, velocities: FloatArray, charge: float) -> floa
 
     velocities : (n_rows,)  non-dimensional, as is the power
     """
-    limits = program.limits
-    v = (program.equilibrium_matrix.T @ velocities).reshape(-1, program.components)
+    limits, further = program.limits, ConditionCones.of(program)
+    v = further.moving.contact_velocities(velocities)
     sliding = np.linalg.norm(v[:, 1:], axis=1)
     surplus = v[:, 0] - limits.friction * sliding
     crushes, short = np.isfinite(limits.compression), np.maximum(-surplus, 0.0)
     crushed = np.where(crushes, limits.compression, 0.0) * short
     power = limits.cohesion * sliding + limits.tension * np.maximum(surplus, 0.0) + crushed
-    return float(power.sum() + charge * short[~crushes].sum())
+    lack = short[~crushes].sum() + further.lack(further.held.T @ velocities).sum()
+    own = 0.0 if program.conditions is None else program.conditions.cost @ velocities[len(program.dead_load) :]
+    return float(power.sum() + own + charge * lack)

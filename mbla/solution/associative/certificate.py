@@ -18,7 +18,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from mbla.arrays import FloatArray
-from mbla.program.kinematic import ConeProgram, kinematic_form
+from mbla.program.kinematic import kinematic_form
 from mbla.program.program import Program
 from mbla.solution.associative.bounds import LOCKED_IN, dissipation
 from mbla.solution.cone_solvers.choice import cone_solver
@@ -37,7 +37,9 @@ CARRIED_SHARE = 1e-7
 
 
 def steepest_fall(program: Program, settings: SolverSettings, log: Log) -> FloatArray | None:
-    """The motion in which the dead load gains most, (n_rows,), largest entry 1; None where nothing falls.
+    """The motion in which the dead load gains most, largest entry 1; None where nothing falls.
+
+    (n_rows,) of the blocks, unknowns of conditions on interfaces behind.
 
     Blocks that stand are at rest in it. It is compatible with the yield conditions up to rounding.
     """
@@ -47,23 +49,20 @@ def steepest_fall(program: Program, settings: SolverSettings, log: Log) -> Float
     given = form.cone_program
     sizes = _sizes_of_loads(program).diagonal()
     quadratic = np.concatenate([sizes, np.zeros(len(given.cost) - len(sizes))])
-    without_live_load = ConeProgram(
-        cost=given.cost,
-        matrix=sp.csc_array(given.matrix[1:]),
-        rhs=given.rhs[1:],
-        n_half_lines=given.n_half_lines,
-        n_cones=given.n_cones,
-        n_equations=0,
-        quadratic=quadratic,
+    without_live_load = replace(
+        given, matrix=sp.csc_array(given.matrix[1:]), rhs=given.rhs[1:], n_equations=0, quadratic=quadratic, n_local=0
     )
     exact = replace(settings, tolerance=min(settings.tolerance, FALL_TOLERANCE))
     solution = cone_solver(without_live_load, exact, log).solve(1, 0.0)
-    velocities = form.velocities(solution.x)
-    largest = float(np.abs(velocities).max(initial=0.0))
+    blocks = np.arange(len(program.dead_load))
+    velocities = np.concatenate([form.velocities(solution.x), form.of_conditions(solution.x)])
+    largest = float(np.abs(velocities[blocks]).max(initial=0.0))
     if solution.status not in WITH_VALUE or not largest > CARRIED_SHARE:
         return None
     moving = velocities / largest
-    candidates = (np.where(np.abs(moving) > AT_REST, moving, 0.0), moving)
+    still = moving.copy()
+    still[blocks] = np.where(np.abs(moving[blocks]) > AT_REST, moving[blocks], 0.0)
+    candidates = (still, moving)
     return next((motion for motion in candidates if _proves(program, motion)), None)
 
 
@@ -83,4 +82,4 @@ def _sizes_of_loads(program: Program) -> sp.csr_array:
 def _proves(program: Program, velocities: FloatArray) -> bool:
     """Whether the dead load does more work than the joints dissipate, closing charged as verification charges it."""
     charge = LOCKED_IN * float(np.abs(program.dead_load).sum())
-    return float(program.dead_load @ velocities) > dissipation(program, velocities, charge)
+    return float(program.dead_load @ velocities[: len(program.dead_load)]) > dissipation(program, velocities, charge)

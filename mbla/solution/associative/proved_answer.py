@@ -87,7 +87,9 @@ def solve_until_proved(run: AssociativeRun, form: AssociativeForm) -> ProvedAnsw
     if run.settings.solver == "auto":
         own = first.solution.solver
         sharpest, other = replace(sharpest, solver=own), replace(other, solver=other_method(own))
-    if _is_open(run, best):
+    # of strengths beyond numbers one method may say that they bear everything
+    unsure = run.program.conditions is not None and best.solution.status is Status.UNBOUNDED
+    if unsure or _is_open(run, best):
         half_way = _size(run, first) ** HALF_WAY
         best = better(best, _answer(run, _in_units_of(run, first) or form, half_way, other))
     if _is_open(run, best):
@@ -136,7 +138,12 @@ def is_decided(run: AssociativeRun, answer: ProvedAnswer) -> bool:
 
 
 def better(first: ProvedAnswer, second: ProvedAnswer) -> ProvedAnswer:
-    """The answer with the stronger proof, the earlier one of equals."""
+    """The answer with the stronger proof, the earlier one of equals; with conditions on interfaces both bounds count.
+
+    Of such programs one method has the closer forces, the other the closer velocities.
+    """
+    if first.gap is not None and second.gap is not None and first.gap.of_interfaces:
+        first, second = (replace(one, gap=first.gap.with_bounds_of(second.gap)) for one in (first, second))
 
     def weakness(answer: ProvedAnswer) -> tuple[int, float]:
         if answer.certificate is not None or answer.gap is not None:
@@ -174,7 +181,7 @@ def says_it_falls(run: AssociativeRun, solution: ConeSolution) -> bool:
 def _proved(form: AssociativeForm, solution: ConeSolution) -> CertifiedGap:
     """Bounds that a solution proves."""
     state = LawState(form.forces(solution), form.velocities(solution), form.load_factor(solution), np.nan)
-    return certified_gap(form.program, state)
+    return certified_gap(form.program, state, form.slacks(solution))
 
 
 def _size(run: AssociativeRun, answer: ProvedAnswer) -> float:

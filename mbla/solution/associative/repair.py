@@ -13,12 +13,15 @@ solver's mechanism is moved, in the metric of the cones' own barrier, towards co
 
 The barrier of a cone ‖T‖ ≤ s is −log(s² − ‖T‖²), that of a half-line −log of its slack. Forces and velocities have two
 or three components.
+
+Conditions on interfaces are further cones: their slacks s stand beside the forces, in balance in the rows of their
+unknowns ψ, and cones @ ψ beside the contact velocities (:mod:`mbla.program.conditions`).
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import replace
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
 
 import numpy as np
 import scipy.sparse as sp
@@ -27,6 +30,8 @@ from mbla.arrays import FloatArray
 from mbla.process.stopwatch import stage
 from mbla.program.program import Program
 from mbla.program.yield_conditions import YieldLimits, yield_violation
+from mbla.solution.associative.augmented_step import augmented_solver
+from mbla.solution.associative.condition_cones import ConditionCones
 from mbla.solution.linear_algebra.block_products import block_diagonal, inverses
 from mbla.solution.linear_algebra.bordered_system import PROGRESS, ROUNDS, bordered_solver
 
@@ -34,13 +39,21 @@ TINY = 1e-100
 """Stands for zero slack: its square and the square of its inverse are within the range of numbers."""
 
 
-@np.errstate(over="ignore", invalid="ignore")
 def force_metric(limits: YieldLimits, x: FloatArray) -> sp.csr_array:
     """Inverse Hessian of the barriers of all yield conditions at forces strictly inside, block-diagonal.
 
+    A row for each number of x, (n_points, components).
+    """
+    return block_diagonal(force_blocks(limits, x))
+
+
+@np.errstate(over="ignore", invalid="ignore")
+def force_blocks(limits: YieldLimits, x: FloatArray) -> FloatArray:
+    """Blocks of ``force_metric``, one for each point.
+
     Points without shear strength keep T = 0. Not finite where squares of forces are beyond the range of numbers.
 
-    x : (n_points, components)  non-dimensional, compression positive; the matrix has a row for each of its numbers
+    x : (n_points, components)  non-dimensional, compression positive; the blocks are (n_points, components, components)
     """
     mu, s = limits.friction, limits.cohesion + limits.friction * x[:, 0]
     t = x[:, 1:]
@@ -58,7 +71,7 @@ def force_metric(limits: YieldLimits, x: FloatArray) -> sp.csr_array:
     inverse = _inverse(hessian)
     inverse[shearless, 1:, :] = 0.0
     inverse[shearless, :, 1:] = 0.0
-    return block_diagonal(inverse)
+    return inverse
 
 
 @np.errstate(over="ignore", invalid="ignore")
@@ -119,35 +132,125 @@ that nothing is left of the latter in double precision."""
 
 @stage("repair")
 def repaired_forces(
-    program: Program, forces: FloatArray, load_factor: float, inside: float = INSIDE
+    program: Program,
+    forces: FloatArray,
+    load_factor: float,
+    slacks: FloatArray | None = None,
+    inside: float = INSIDE,
 ) -> tuple[FloatArray, float] | None:
-    """Forces near the given ones that balance the loads within the yield conditions, and the load factor they carry.
+    """Forces near the given ones that balance the loads within all conditions, and the load factor they carry.
 
     forces : (n_points, components), non-dimensional as ``program``, like the load factor. None where no repair is found
+    slacks : (n_slacks,) of the conditions on interfaces, where the program has such: without them there is none
     inside : excess over a yield condition that is allowed
     """
-    x, factor, best, least = forces, load_factor, None, np.inf
-    for _ in range(ROUNDS + 1):
-        off = float(np.abs(_unbalanced(program, x, factor)).max(initial=0.0))
-        excess = float(yield_violation(x, program.limits).max(initial=0.0))
-        rounding = FORCE_ROUNDING * float(np.abs(x).max(initial=0.0))
-        if excess <= max(inside, rounding) and off <= min(least, max(EQUILIBRIUM_TOLERANCE, rounding)):
-            enough = off <= max(BALANCED, rounding) or off > PROGRESS * least
-            best, least = (x, factor), off
-            if enough:
-                break
-        x = _pulled_inside(program, x)
-        step = _static_correction(program, x, factor)
-        if step is None:
+    if slacks is None and program.conditions is not None:
+        return None
+    none = np.zeros(0)
+    best, least = _repaired(program, _Forces(forces, none if slacks is None else slacks, load_factor), inside, NORMAL)
+    if slacks is None:
+        return best
+    for share in NEGLIGIBLE:
+        if least <= GOOD_EQUILIBRIUM:
             break
-        x, factor = x + step[0], factor + step[1]
-        if np.abs(x).max(initial=0.0) > RUNAWAY * (1.0 + np.abs(forces).max(initial=0.0)):
-            break
+        found = _by_what_counts(program, _Forces(forces, slacks, load_factor), inside, share)
+        best, least = min((best, least), found, key=lambda each: each[1])
     return best
 
 
-def _unbalanced(program: Program, x: FloatArray, factor: float) -> FloatArray:
-    return np.asarray(program.equilibrium_matrix @ x.ravel() + program.dead_load + factor * program.live_load)
+def _by_what_counts(
+    program: Program, given: _Forces, inside: float, share: float
+) -> tuple[tuple[FloatArray, float] | None, float]:
+    """The repair without the points whose normal force is below a share of the largest, by the augmented system.
+
+    Interfaces without force are at the apex of their conditions, where nothing is left of the digits of their slacks.
+    """
+    normal, c = np.abs(given.x[:, 0]), program.components
+    kept = normal >= share * normal.max(initial=0.0)
+    if kept.all():
+        best, least = _repaired(program, given, inside, AUGMENTED)
+        return best, least
+    assert program.conditions is not None
+    numbers = np.flatnonzero(np.repeat(kept, c))
+    conditions, rows = program.conditions.of_points(numbers)
+    limits = YieldLimits(**{name: values[kept] for name, values in vars(program.limits).items()})
+    matrix = sp.csr_array(program.equilibrium_matrix[:, numbers])
+    less = replace(program, equilibrium_matrix=matrix, limits=limits, conditions=conditions, reduction=None)
+    best, least = _repaired(less, _Forces(given.x[kept], given.s[rows], given.factor), inside, AUGMENTED)
+    if best is None:
+        return None, np.inf
+    forces = np.zeros_like(given.x)
+    forces[kept] = best[0]
+    return (forces, best[1]), least
+
+
+@dataclass(frozen=True)
+class _Forces:
+    """Forces x, (n_points, components), slacks s, (n_slacks,), and load factor; or changes of these."""
+
+    x: FloatArray
+    s: FloatArray
+    factor: float
+
+    def plus(self, change: _Forces, share: float = 1.0) -> _Forces:
+        return _Forces(self.x + share * change.x, self.s + share * change.s, self.factor + share * change.factor)
+
+    @property
+    def rounding(self) -> float:
+        return FORCE_ROUNDING * max(float(np.abs(self.x).max(initial=0.0)), float(np.abs(self.s).max(initial=0.0)))
+
+
+@dataclass(frozen=True)
+class _Way:
+    """How steps are found.
+
+    rounds    : of them at most
+    distance  : from the border of its cone, over its size, that a slack is moved to before
+    augmented : by the augmented system, and no further than slacks stay inside
+    """
+
+    rounds: int
+    distance: float
+    augmented: bool
+
+
+NORMAL, AUGMENTED = _Way(ROUNDS, 1e-10, augmented=False), _Way(12, 1e-13, augmented=True)
+
+GOOD_EQUILIBRIUM = 1e-11
+"""Residual at which no other way is tried where there are conditions on interfaces: near the apex of these an interface
+is beyond what it carries by many times what is unbalanced."""
+
+NEGLIGIBLE = (0.0, 1e-9, 1e-7)
+"""Shares of the largest normal force below which points are left out, in turn."""
+
+BORDER = 0.999
+"""Share of the way to the border of a cone that a step goes."""
+
+
+def _repaired(
+    program: Program, given: _Forces, inside: float, way: _Way
+) -> tuple[tuple[FloatArray, float] | None, float]:
+    """The best forces and load factor, and what they leave unbalanced; None and infinity without."""
+    further, now, best, least = ConditionCones.of(program), given, None, np.inf
+    for _ in range(way.rounds + 1):
+        off = float(np.abs(further.unbalanced(now.x, now.s, now.factor)).max(initial=0.0))
+        excess = max(
+            float(yield_violation(now.x, program.limits).max(initial=0.0)), further.lack(now.s).max(initial=0.0)
+        )
+        if excess <= max(inside, now.rounding) and off <= min(least, max(EQUILIBRIUM_TOLERANCE, now.rounding)):
+            enough = off <= max(BALANCED, now.rounding) or off > PROGRESS * least
+            best, least = (now.x, now.factor), off
+            if enough:
+                break
+        now = _Forces(_pulled_inside(program, now.x), further.pulled_inside(now.s, way.distance), now.factor)
+        step = _static_correction(program, further, now, way)
+        if step is None:
+            break
+        longest = BORDER * further.cones.step_to_boundary(now.s, step.s) if way.augmented else 1.0
+        now = now.plus(step, min(1.0, longest))
+        if np.abs(now.x).max(initial=0.0) > RUNAWAY * (1.0 + np.abs(given.x).max(initial=0.0)):
+            break
+    return best, least
 
 
 def carried_loads(program: Program, x: FloatArray) -> FloatArray:
@@ -184,26 +287,72 @@ def _pulled_inside(program: Program, x: FloatArray) -> FloatArray:
     return inside
 
 
-def _static_correction(program: Program, x: FloatArray, factor: float) -> tuple[FloatArray, float] | None:
-    """Least change of forces and load factor, in the barrier's metric, that restores equilibrium."""
-    limits = program.limits
+def _static_correction(program: Program, further: ConditionCones, now: _Forces, way: _Way) -> _Forces | None:
+    """Least change of forces, slacks and load factor, in the barrier's metric, that restores equilibrium."""
+    limits, x = program.limits, now.x
     least = NO_FORCE * max(float(np.abs(x).max(initial=0.0)), 1e-280)  # a steeper cone has none: no digits are left
     needed = 2.0 * np.linalg.norm(x[:, 1:], axis=1) / np.maximum(x[:, 0], least)
-    weights = force_metric(replace(limits, friction=np.minimum(limits.friction, np.maximum(STEEP, needed))), x)
-    matrix = program.equilibrium_matrix
-    normal = sp.csc_array(matrix @ weights @ matrix.T)
-    free = 1e-4 * max(abs(factor), 1e-3)
-    solve = bordered_solver(normal, program.live_load, free * free)  # not **, which raises beyond numbers
+    limits = replace(limits, friction=np.minimum(limits.friction, np.maximum(STEEP, needed)))
+    free = 1e-4 * max(abs(now.factor), 1e-3)
+    change_of = (_augmented if way.augmented else _normal)(further, limits, now, free)
+    if change_of is None:
+        return None
+    change = _Forces(np.zeros_like(x), np.zeros_like(now.s), 0.0)
+    for _ in range(4):  # refinement: the metric spans many decades
+        moved = now.plus(change)
+        more = change_of(-further.unbalanced(moved.x, moved.s, moved.factor))
+        if more is None:
+            return None
+        change = change.plus(more)
+    return change
+
+
+ChangeOf = Callable[[FloatArray], _Forces | None]
+"""The change that takes away what is unbalanced, (n_rows + n_unknowns,); None where it is no number."""
+
+
+def _normal(further: ConditionCones, limits: YieldLimits, now: _Forces, free: float) -> ChangeOf | None:
+    matrix, held, live = further.moving.equilibrium_matrix, further.held, further.moving.live_load
+    weights, of_slacks = force_metric(limits, now.x), further.cones.inverse_hessian(now.s)
+    normal = further.with_slacks(matrix @ weights @ matrix.T, of_slacks)
+    solve = bordered_solver(normal, live, free * free)  # not **, which raises beyond numbers
     if solve is None:
         return None
-    delta, delta_factor = np.zeros_like(x), 0.0
-    for _ in range(4):  # refinement: the metric spans many decades
-        y = solve(-_unbalanced(program, x + delta, factor + delta_factor))
+
+    def change(rhs: FloatArray) -> _Forces | None:
+        y = solve(rhs)
         if not np.isfinite(y).all():
             return None
-        delta = delta + (weights @ (matrix.T @ y[:-1])).reshape(x.shape)
-        delta_factor += float(y[-1])
-    return delta, delta_factor
+        x = (weights @ (matrix.T @ y[:-1])).reshape(now.x.shape)
+        return _Forces(x, of_slacks @ (held.T @ y[:-1]), float(y[-1]))
+
+    return change
+
+
+def _augmented(further: ConditionCones, limits: YieldLimits, now: _Forces, free: float) -> ChangeOf | None:
+    matrix, held, live = further.moving.equilibrium_matrix, further.held, further.moving.live_load
+    of_points = block_diagonal(_roots(force_blocks(limits, now.x)))
+    of_slacks = further.cones.root_of_inverse_hessian(now.s)
+    rows = sp.hstack([sp.csr_array(free * live[:, None]), matrix @ of_points, held @ of_slacks])
+    solve = augmented_solver(sp.csr_array(rows))
+    if solve is None:
+        return None
+
+    def change(rhs: FloatArray) -> _Forces | None:
+        y = solve(rhs)
+        if not np.isfinite(y).all():
+            return None
+        factor, x, s = np.split(y, [1, 1 + now.x.size])
+        return _Forces((of_points @ x).reshape(now.x.shape), of_slacks @ s, free * float(factor[0]))
+
+    return change
+
+
+def _roots(blocks: FloatArray) -> FloatArray:
+    """L with L Lᵀ each block, (n, k, k), of its unit-diagonal eigenvectors."""
+    size = np.sqrt(np.maximum(np.einsum("nii->ni", blocks), TINY))
+    values, vectors = np.linalg.eigh(blocks / size[:, :, None] / size[:, None, :])
+    return np.asarray(size[:, :, None] * vectors * np.sqrt(np.maximum(values, 0.0))[:, None, :])
 
 
 OPENINGS = (1e-13, 1e-11, 1e-9)
@@ -212,15 +361,18 @@ compatible; the best one counts. Confined joints cannot open at all: there the s
 
 
 def repaired_mechanisms(program: Program, velocities: FloatArray) -> Iterator[FloatArray]:
-    """The given velocities, (n_rows,) non-dimensional, and versions of them moved towards compatibility.
+    """The given velocities, and versions of them moved towards compatibility.
 
     Each is found when it is asked for.
+
+    velocities : (n_rows + n_unknowns,) of the blocks, then unknowns of the conditions on interfaces; non-dimensional
     """
     yield velocities
+    further = ConditionCones.of(program)
     for opening in OPENINGS:
         u, lack = velocities, np.inf
         for _ in range(ROUNDS):
-            moved = _kinematic_correction(program, u, opening)
+            moved = _kinematic_correction(further, u, opening)
             if moved is None:
                 break
             yield moved
@@ -232,33 +384,39 @@ def repaired_mechanisms(program: Program, velocities: FloatArray) -> Iterator[Fl
 
 
 def incompatibility(program: Program, velocities: FloatArray) -> float:
-    """Sum of μ s − v_N over points that cannot crush, where that is positive.
+    """Sum of μ s − v_N over points that cannot crush, where that is positive, and of what conditions lack.
 
-    velocities : (n_rows,)  non-dimensional
+    velocities : (n_rows + n_unknowns,)  non-dimensional
     """
-    v = (program.equilibrium_matrix.T @ velocities).reshape(-1, program.components)
+    further = ConditionCones.of(program)
+    v = further.moving.contact_velocities(velocities)
     lack = np.maximum(program.limits.friction * np.linalg.norm(v[:, 1:], axis=1) - v[:, 0], 0.0)
-    return float(lack[np.isinf(program.limits.compression)].sum())
+    of_conditions = further.lack(further.held.T @ velocities)
+    return float(lack[np.isinf(program.limits.compression)].sum() + of_conditions.sum())
 
 
 @stage("repair")
-def _kinematic_correction(program: Program, u: FloatArray, opening: float) -> FloatArray | None:
+def _kinematic_correction(further: ConditionCones, u: FloatArray, opening: float) -> FloatArray | None:
     """Least change, in the barrier's metric, towards velocities that open by ``opening`` of the largest speed."""
-    mu, matrix = program.limits.friction, program.equilibrium_matrix
-    v = (matrix.T @ u).reshape(-1, program.components)
+    program = further.moving
+    mu, matrix, held = program.limits.friction, program.equilibrium_matrix, further.held
+    v = program.contact_velocities(u)
     speed = max(float(np.abs(v).max(initial=0.0)), 1e-9 * float(np.abs(u).max(initial=0.0)), 1e-150)
     target = v.copy()
     target[:, 0] = np.maximum(v[:, 0], mu * np.linalg.norm(v[:, 1:], axis=1) + opening * speed)
+    wanted = further.inside_by(held.T @ u, opening)
     weights = velocity_hessian(mu, target)
     # joints that can crush need not open: they only keep the velocity from straying
     weak = 1.0 / (speed * speed)  # not **, which raises beyond numbers
     weights[np.isfinite(program.limits.compression)] = weak * np.eye(program.components)
-    metric = block_diagonal(weights)
-    solve = bordered_solver(sp.csc_array(matrix @ metric @ matrix.T), program.live_load, np.inf)
+    metric, of_conditions = block_diagonal(weights), further.hessian(wanted)
+    normal = further.with_slacks(matrix @ metric @ matrix.T, of_conditions)
+    solve = bordered_solver(normal, program.live_load, np.inf)
     if solve is None:
         return None
     delta = np.zeros_like(u)
     for _ in range(3):
-        misfit = target.ravel() - matrix.T @ (u + delta)
-        delta = delta + solve(matrix @ (metric @ misfit))[:-1]
+        misfit = matrix @ (metric @ (target.ravel() - matrix.T @ (u + delta)))
+        misfit += held @ (of_conditions @ (wanted - held.T @ (u + delta)))
+        delta = delta + solve(misfit)[:-1]
     return u + delta if np.isfinite(delta).all() else None

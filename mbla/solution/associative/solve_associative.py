@@ -48,8 +48,8 @@ LOCKED = "no mechanism exists in which the live load does work: friction locks t
 class AssociativeResult:
     """Answer of the associative program: a state with a load factor, a certificate without equilibrium.
 
-    certificate : (n_rows,) velocities, non-dimensional, of a motion in which the dead load does more work than the
-                  joints dissipate
+    certificate : velocities, non-dimensional, of a motion in which the dead load does more work than the joints
+                  dissipate: (n_rows,) of the blocks, unknowns of conditions on interfaces behind
     solver      : that the state comes from, empty without one: the program may have been solved by several
     tolerance_requested : approximate: the distance of the bounds that was asked for, and reached; None where it was not
     gap_words   : approximate for no other reason than that the bounds are apart: how far, in words; else empty
@@ -74,12 +74,14 @@ def solve_associative(
     *,
     first: int = 1,
     stress_free: bool = False,
+    carried: bool = False,
 ) -> AssociativeResult:
     """Solve the program of one load case with associative flow.
 
     first       : number of its first program in the sequence of the load case
     stress_free : the state of the stress-free assembly is wanted as well: it is found before the program with the live
                   load reversed, which it usually saves
+    carried     : the dead load alone is known to be carried
     """
     run = AssociativeRun(program, settings, log, first, [])
     falling = _fall_of_what_nothing_touches(program)
@@ -90,6 +92,8 @@ def solve_associative(
         return _no_equilibrium(run, answer.certificate)
     if answer.gap is None and answer.solution.status is not Status.UNBOUNDED:
         return _undecided(run, answer.solution)
+    if carried:
+        return _with_dead_load(run, answer, proved=True)
     if not stress_free or settings.deadline is not None:
         # where a support gives way, forces at any load factor carry the dead load, with another reaction
         shown = program.facts.settles and answer.gap is not None and np.isfinite(answer.gap.static)
@@ -102,6 +106,8 @@ def solve_associative(
 def _proves(run: AssociativeRun, state: StressFree) -> bool:
     """Whether the forces on the stress-free assembly, without springs, prove that the dead load alone is carried."""
     if state.rest is None:
+        return False
+    if run.program.conditions is not None:  # which these forces need not fulfil
         return False
     if run.program.facts.settles:  # with the reaction that it has while it is held
         return _carries(run, state.rest.forces, state.rest.load_factor)
@@ -170,8 +176,12 @@ def _with_load_factor(run: AssociativeRun, answer: ProvedAnswer) -> AssociativeR
             f"forces prove a load factor of {gap.static * live:.8g}, velocities one of {gap.kinematic * live:.8g}: "
             f"{apart}"
         )
-    forces, factor, velocities = gap.forces, gap.load_factor, gap.velocities
-    state = law_state(run.program, run.program.limits.friction, forces, velocities, factor)
+    program, conditions = run.program, run.program.conditions
+    if conditions is None:
+        state = law_state(program, program.limits.friction, gap.forces, gap.velocities, gap.load_factor)
+    else:
+        blocks, unknowns = np.split(gap.velocities, [len(program.dead_load)])
+        state = LawState(gap.forces, blocks, gap.load_factor, np.nan, conditions.moved(unknowns))
     solver = answer.solution.solver.lower()
     return AssociativeResult(status, state, None, reason, tuple(run.records), solver, asked, reason)
 
@@ -181,12 +191,12 @@ def _carried(run: AssociativeRun, form: AssociativeForm, reverse: ConeSolution) 
     forces, factor = form.forces(reverse), form.load_factor(reverse)
     if not np.isfinite(forces).all() or not np.isfinite(factor):
         return False
-    return _carries(run, forces, factor)
+    return _carries(run, forces, factor, form.slacks(reverse))
 
 
-def _carries(run: AssociativeRun, forces: FloatArray, factor: float) -> bool:
+def _carries(run: AssociativeRun, forces: FloatArray, factor: float, slacks: FloatArray | None = None) -> bool:
     """Whether forces in balance with about that load factor can be repaired to carry one of zero or below."""
-    repaired = repaired_forces(run.program, forces, factor)
+    repaired = repaired_forces(run.program, forces, factor, slacks)
     return repaired is not None and repaired[1] <= STANDS_MARGIN * run.size
 
 

@@ -3,8 +3,8 @@
 - ``mbla``: the interior-point method of :mod:`mbla.solution.cone_solvers.interior_point`, for programs of its shape
 - ``clarabel``: any program; those of other shapes, those whose admissible set has no inside, and those of which
   ``mbla`` comes to no answer, under ``mbla`` too
-- ``auto``: ``mbla`` from ``OWN_FROM`` unknowns, programs with a quadratic cost only with a fast factorisation; else
-  ``clarabel``
+- ``auto``: ``mbla`` from ``OWN_FROM`` unknowns, programs with a quadratic cost only with a fast factorisation, those
+  with conditions on interfaces not first; else ``clarabel``
 
 Measured side by side (schemas/analysis.md): below that size either takes milliseconds and
 clarabel, compiled, has the smaller overhead; above it the condensed method is faster and its bounds are closer to each
@@ -62,6 +62,8 @@ def interior_point_method(cone_program: ConeProgram, solver: str) -> str:
 
 def _pays(cone_program: ConeProgram) -> bool:
     """Whether ``auto`` takes the condensed method for a program that fits."""
+    if cone_program.further_cones:
+        return False
     size = condensed_size(cone_program)
     return size >= OWN_FROM and (cone_program.quadratic is None or best_library(size) == FAST)
 

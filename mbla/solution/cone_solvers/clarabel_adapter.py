@@ -52,6 +52,10 @@ LINEAR_REGULARIZATION = 1e-8
 MANY, LINEAR_REGULARIZATION_OF_MANY = 3000, 1e-9
 """Unknowns from which the larger value costs iterations: 39 instead of 32 on a wall of 1,012 blocks."""
 
+REGULARIZATION_OF_CONDITIONS = 1e-7
+"""Of programs with conditions on interfaces, which are often at their limit together with points: with 1e-8 the solver
+broke down on vaults that crush."""
+
 FALLBACK_REGULARIZATION = 1e-8
 """Second try where the solver does not finish: programs whose feasible set has no interior want the larger value."""
 
@@ -214,6 +218,8 @@ def regularization(program: ConeProgram, settings: SolverSettings) -> float:
         return settings.regularization
     if program.quadratic is not None:
         return QUADRATIC_REGULARIZATION
+    if program.further_cones:
+        return REGULARIZATION_OF_CONDITIONS
     return LINEAR_REGULARIZATION_OF_MANY if len(program.cost) > MANY else LINEAR_REGULARIZATION
 
 

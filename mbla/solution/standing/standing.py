@@ -69,7 +69,8 @@ def stress_free_state(program: Program) -> StressFree:
 
     A support that gives way later is held.
     """
-    return _stress_free(program if program.facts.settles else program.without_live_load())
+    at_points = replace(program, conditions=None)
+    return _stress_free(at_points if program.facts.settles else at_points.without_live_load())
 
 
 @shared("standing")
@@ -132,8 +133,7 @@ def _on_model(program: Program, rest: LawState) -> StandingResult:
 
 def standing_where_carried(program: CaseProgram) -> StandingResult:
     """Standing of a load case whose dead load some contact forces are known to carry."""
-    parts = program.reduced.parts if program.convex is None else (program.convex.points,)
-    return worst_standing([assess_dead_load(part) for part in parts])
+    return worst_standing([assess_dead_load(part) for part in program.reduced.parts])
 
 
 def least_forces(
@@ -174,11 +174,11 @@ def worst_standing(results: Sequence[StandingResult]) -> StandingResult:
 
 
 def standing_without_equilibrium(program: Program, certificate: FloatArray) -> StandingResult:
-    """What a motion, (n_rows,), in which the dead load does more work than the joints dissipate implies for standing.
+    """What a motion in which the dead load does more work than the joints dissipate implies for standing.
 
-    The block named is the one whose load does most of that work.
+    certificate : velocities of the blocks, others behind. The block named is the one whose load does most of that work.
     """
-    motion, program = motion_of(program, certificate), program.full
+    motion, program = motion_of(program, certificate[: len(program.dead_load)]), program.full
     load = (program.dead_load / program.scaling.row).reshape(-1, 6)
     work = (load * motion[program.facts.free]).sum(axis=1)
     return StandingResult(Standing.NO, int(program.facts.free[work.argmax()]), NO)

@@ -21,6 +21,7 @@ from mbla.solution.lifted import (
     without_rounding,
 )
 from mbla.solution.mechanics import contact_modes
+from mbla.solution.of_interfaces import of_interfaces
 from mbla.solution.solution import Mechanics, Solution
 from mbla.solution.verification.statics import contact_velocities
 
@@ -44,7 +45,7 @@ def with_derived(assembly: Assembly, load_case: LoadCase, solution: Solution) ->
             mechanics = replace(mechanics, mechanism=still, contact_velocities=moved)
             rule = rule_of(part, solution)
             contact_model = model_of(part, solution)
-            mechanics = _with_modes(bodies, load_case, mechanics, rule, contact_model)
+            mechanics = _with_modes(bodies, mechanics, rule, contact_model)
             found[id(getattr(solution, part))] = without_rounding(mechanics, bodies, model.blocks.sizes)
     parts = {part: found.get(id(getattr(solution, part))) for part in MOTIONS}
     return ties_apart(replace(solution, **parts), bodies)  # type: ignore[arg-type]  # names and types are those of the parts
@@ -55,18 +56,10 @@ def _near(one: FloatArray, other: FloatArray) -> bool:
     return bool(np.abs(one - other).max(initial=0.0) <= ROUNDING * np.abs(one).max(initial=0.0))
 
 
-def _with_modes(
-    bodies: RigidBodies, load_case: LoadCase, mechanics: Mechanics, flow_rule: str, contact_model: str
-) -> Mechanics:
+def _with_modes(bodies: RigidBodies, mechanics: Mechanics, flow_rule: str, contact_model: str) -> Mechanics:
     """With modes of the contact points, and resultants of the interfaces where there are any."""
     limits, forces = yield_limits(bodies.model, bodies.contacts), mechanics.contact_forces
     slope = limits.dilatancy_by(flow_rule)
     if mechanics.interface_motions is None:
         return replace(mechanics, modes=contact_modes(forces, mechanics.contact_velocities, limits, slope))
-    from mbla.program.resultants import assemble_convex
-    from mbla.solution.resultants.of_interfaces import modes_of  # late: the law of interfaces is asked for rarely
-
-    convex = assemble_convex(bodies.model, bodies.contacts, bodies.load_case(load_case), contact_model)
-    of_bodies = replace(mechanics, mechanism=motions_of_bodies(bodies, mechanics.mechanism))
-    resultants = convex.resultants_of(forces)
-    return replace(mechanics, modes=modes_of(convex, of_bodies, slope), resultants=resultants)
+    return of_interfaces(bodies.model, bodies.contacts, contact_model, mechanics, flow_rule)

@@ -1,11 +1,9 @@
 """The rows of torsion and crushing allow the resultants that the formulas of these modules allow, and no others.
 
-The size of a program with conditions on interfaces.
+The unknowns and cones that they add to a program.
 """
 
 from __future__ import annotations
-
-from contextlib import nullcontext
 
 import numpy as np
 import pytest
@@ -14,13 +12,17 @@ import scipy.sparse as sp
 from mbla.arrays import FloatArray
 from mbla.deck.sections.analysis import AnalysisSection
 from mbla.program.kinematic import ConeProgram
-from mbla.program.resultants.assemble import assemble_convex, size_of_convex
 from mbla.program.resultants.conditions import M1, M2, MN, ConditionRows, N
-from mbla.program.resultants.crushing import crushing_limits, crushing_rows, crushing_violation
+from mbla.program.resultants.conditions_of import with_conditions_of
+from mbla.program.resultants.crushing_cones import crushing_conditions
+from mbla.program.resultants.interface_motions import CrushingInterfaces, CrushingOfProgram
 from mbla.program.resultants.shapes import InterfaceShapes
+from mbla.program.resultants.stress_blocks import Pieces, pieces_in_space, with_conditions
 from mbla.program.resultants.torsion import TorsionLimits, torsion_limits, torsion_rows
+from mbla.program.resultants.twisting_interfaces import TwistingInterfaces
 from mbla.solution.cone_solvers.clarabel_adapter import ClarabelProgram
 from mbla.solution.settings import solver_settings
+from mbla.solution.verification.interface_laws import InterfaceLaws, crushing_excess
 from tests.line import BLOCK, WALL, line_of
 from tests.program.resultants.test_shapes import shapes_of
 
@@ -93,28 +95,34 @@ def test_torsion(shapes: InterfaceShapes, friction: float, cohesion: float) -> N
     assert seen == {False, True}
 
 
+def pieces_of(shapes: InterfaceShapes, strength: float, tension: float) -> Pieces:
+    """Of one interface, in the unit of length of its shape."""
+    outlines = [shapes.corners[shapes.start[0] : shapes.start[1]]]
+    plates = pieces_in_space(shapes, outlines, np.array([0]), np.ones(1))
+    kind = int(len(plates[1].owner) > 0)
+    total = np.array([strength + tension])
+    return with_conditions(plates[kind], ("parallelogram", "triangle")[kind], total, np.array([tension]))
+
+
 @pytest.mark.parametrize("shapes", [RECTANGLE, PARALLELOGRAM, TRIANGLE], ids=["rectangle", "parallelogram", "triangle"])
 @pytest.mark.parametrize("tension", [0.0, 0.25])
 def test_crushing(shapes: InterfaceShapes, tension: float) -> None:
-    limits = crushing_limits(shapes, np.array([2.0]), np.array([tension]))
-    assert limits.interfaces.tolist() == [0]
-    assert limits.strength.tolist() == [2.0 + tension]
-    rows = crushing_rows(limits, 1)
+    """As the verification has it: what a stress between nothing and the strength carries."""
+    none = np.zeros(1)
+    laws = InterfaceLaws(shapes, none, none, none + tension, none + 2.0 + tension, none > 0.0, none == 0.0)
+    # r = (N, Σ n x_1, Σ n x_2) from the resultants
+    places = (np.array([1.0, -1.0, 1.0]), ([0, 1, 2], [N, M2, M1]))
+    map_ = sp.csr_array(sp.coo_array(places, shape=(3, 6)))
+    found = CrushingOfProgram(map_, sp.csr_array(map_.T), (pieces_of(shapes, 2.0, tension),), np.ones(2, dtype=bool))
+    of_program = crushing_conditions(found)
+    rows = ConditionRows(of_program.velocities, of_program.cost, of_program.cones, of_program.cone_sizes)
     draw, seen = np.random.default_rng(2), set()
     for _ in range(60):
         r = random_resultants(draw, draw.uniform(-0.5, 2.5), 0.75)
-        allowed = bool(crushing_violation(limits, r[None])[0] <= 0.0)
+        allowed = bool(crushing_excess(laws, r[None])[0] <= 0.0)
         assert agrees(rows, r, allowed), (r, allowed)
         seen.add(allowed)
     assert seen == {False, True}
-
-
-def test_outlines_of_more_corners_are_refused_unless_they_are_in_pieces() -> None:
-    trapezium = shapes_of((0, 0), (2, 0), (1, 1), (0, 1))
-    for strength in (np.array([1.0]), np.array([np.inf])):
-        refused = bool(np.isfinite(strength[0]))
-        with pytest.raises(ValueError, match="neither a parallelogram") if refused else nullcontext():
-            crushing_limits(trapezium, strength, np.array([0.0]))
 
 
 @pytest.mark.parametrize(
@@ -128,11 +136,12 @@ def test_every_interface_adds_the_unknowns_and_cones_of_its_conditions(
     """Torsion: 8 unknowns, 2 cones.
 
     Crushing of a rectangle: at its corners, and of what is left of full stress, 5 unknowns and one for each of 4
-    bounds, 3 cones; 4 of each of 4 edges, one cone.
+    bounds, 3 cones; 4 of each of 4 edges, one cone. Three follow from its motion, which has three.
     """
     line = line_of(text, *strength)
-    size = size_of_convex(assemble_convex(line.model, line.contacts, line.load_case, "convex"))
-    n_free, n_points, n = len(line.model.free), len(line.contacts.points), len(line.contacts)
-    assert size.unknowns == size.largest == 6 * n_free + of_each[0] * n
-    assert size.cones == n_points + of_each[1] * n
-    assert size.entries > line.program.equilibrium_matrix.nnz
+    twisting = TwistingInterfaces.of(line.model, line.contacts)
+    conditions = with_conditions_of(line.program, CrushingInterfaces.of(line.model, line.contacts), twisting).conditions
+    assert conditions is not None
+    n = len(line.contacts)
+    assert len(conditions.cost) == of_each[0] * n
+    assert int((conditions.cone_sizes > 1).sum()) == of_each[1] * n

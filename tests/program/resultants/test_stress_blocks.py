@@ -1,4 +1,4 @@
-"""Pieces of interfaces that crush: their conditions are those of the cone program, and together they are the whole."""
+"""Pieces of interfaces that crush: their conditions are what stress may carry, and together they are the whole."""
 
 from __future__ import annotations
 
@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from mbla.arrays import FloatArray
-from mbla.program.resultants.crushing import crushing_limits, crushing_violation
 from mbla.program.resultants.interface_motions import CrushingInterfaces, crushing_of
 from mbla.program.resultants.stress_blocks import pieces_in_plane
 from mbla.solution.law.crushing_interfaces import Crushing
+from mbla.solution.verification.interface_laws import InterfaceLaws, crushing_excess
 from tests.line import Line, line_of
 from tests.solution.convex_structures import prism
 
@@ -26,9 +26,7 @@ def pressed(outline: tuple[tuple[float, float], ...], tension: float) -> tuple[L
 
 @pytest.mark.parametrize("tension", [0.0, 3e3])
 @pytest.mark.parametrize("outline", [RHOMBOID, TRIANGLE], ids=["parallelogram", "triangle"])
-def test_resultants_are_within_as_those_of_the_cone_program(
-    outline: tuple[tuple[float, float], ...], tension: float
-) -> None:
+def test_resultants_are_within_as_verification_has_it(outline: tuple[tuple[float, float], ...], tension: float) -> None:
     line, interfaces = pressed(outline, tension)
     found = crushing_of(line.program, interfaces)
     assert found is not None
@@ -41,12 +39,13 @@ def test_resultants_are_within_as_those_of_the_cone_program(
     resultants = np.stack([normal, *moments / rho]) / force
     conditions = Crushing(pieces, found.resultants, 1.0)
     within = np.array([conditions.values(one[:, None], np.zeros(0)).min() for one in resultants.T])
-    limits = crushing_limits(interfaces.shapes, interfaces.compression, interfaces.tension)
-    of_cones = np.zeros((1, 6))
+    none, strength = np.zeros(1), interfaces.compression + interfaces.tension
+    laws = InterfaceLaws(interfaces.shapes, none, none, interfaces.tension, strength, none > 0.0, none == 0.0)
+    at_interface = np.zeros((1, 6))
     beyond = []
     for one in np.stack([normal, moments[1], -moments[0]], axis=1):
-        of_cones[0, [0, 4, 5]] = one
-        beyond.append(float(crushing_violation(limits, of_cones)[0]))
+        at_interface[0, [0, 4, 5]] = one
+        beyond.append(float(crushing_excess(laws, at_interface)[0]))
     assert 200 < (within > 0.0).sum() < n - 200
     np.testing.assert_array_equal(within > 0.0, np.array(beyond) < 0.0)
 

@@ -1,44 +1,15 @@
-"""The analysis with interface resultants where its programs, steps or repairs come to nothing."""
+"""The analysis with interface resultants where it locks, or nothing resists."""
 
 from __future__ import annotations
 
 import math
-from dataclasses import replace
-from typing import Any
 
 import pytest
 
-from mbla.program.resultants import ConvexProgram, assemble_convex
-from mbla.solution.resultants import convex_associative
-from mbla.solution.resultants.convex_associative import solve_convex_associative
-from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Standing, Status
 from tests.line import BLOCK, line_of
 from tests.solution.convex_structures import DECKS
 from tests.solution.convex_structures import convex as convex_of
-
-SETTINGS = SolverSettings(1e-8)
-
-
-def sliding() -> ConvexProgram:
-    """A block that slides at 0.5."""
-    line = line_of(BLOCK, "parameters.h=0.5")
-    return assemble_convex(line.model, line.contacts, line.load_case, "convex")
-
-
-@pytest.mark.parametrize("sense", [1.0, -1.0])
-def test_a_program_without_an_answer_leaves_no_load_factor(sense: float, monkeypatch: pytest.MonkeyPatch) -> None:
-    solve = convex_associative._solved
-
-    def late(run: Any, own: float) -> Any:
-        form, solution = solve(run, own)
-        return form, replace(solution, status=Status.TIME_LIMIT) if own == sense else solution
-
-    monkeypatch.setattr(convex_associative, "_solved", late)
-    result = solve_convex_associative(sliding(), SETTINGS, lambda record: None)
-    assert result.status is Status.TIME_LIMIT
-    assert result.state is None
-    assert ("whether the dead load alone is carried is not known" in result.reason) is (sense < 0)
 
 
 def test_what_locks_with_dilatancy_slides_without() -> None:

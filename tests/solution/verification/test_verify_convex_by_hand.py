@@ -12,7 +12,6 @@ import pytest
 
 from mbla.arrays import FloatArray
 from mbla.program.assemble import yield_limits
-from mbla.program.resultants import ConvexProgram
 from mbla.solution.associative.proofs import associative_bounds
 from mbla.solution.solution import Checks, Mechanics, Status
 from mbla.solution.verification.interface_laws import InterfaceLaws
@@ -57,18 +56,17 @@ def mended(monkeypatch: pytest.MonkeyPatch) -> dict[str, Any]:
     """Forces and motions are left as they are, or are mended into what the test says."""
     of: dict[str, Any] = {"forces": True, "motions": None}
 
-    def motions(
-        convex: ConvexProgram, velocities: FloatArray, moved: FloatArray
-    ) -> list[tuple[FloatArray, FloatArray]]:
-        of["opened"] = moved * convex.points.scaling.live / convex.points.scaling.force
+    def motions(case: InterfaceCase, velocities: FloatArray, moved: FloatArray) -> list[tuple[FloatArray, FloatArray]]:
+        of["opened"] = moved * case.program.scaling.live / case.program.scaling.force
         if of["motions"] is None:
             return [(velocities, moved)]
-        return [(convex.points.velocities(np.array([u])), moved) for u in of["motions"]]
+        return [(case.program.velocities(np.array([u])), moved) for u in of["motions"]]
 
-    monkeypatch.setattr(MODULE, "repaired_convex_motions", motions)
-    monkeypatch.setattr(
-        MODULE, "repaired_convex_forces", lambda _, forces, factor: (forces, factor) if of["forces"] else None
-    )
+    def forces(_: InterfaceCase, mechanics: Mechanics) -> tuple[FloatArray, float] | None:
+        return (mechanics.contact_forces, mechanics.load_factor) if of["forces"] else None
+
+    monkeypatch.setattr(InterfaceCase, "_compatible", motions)
+    monkeypatch.setattr(InterfaceCase, "repaired_forces", forces)
     return of
 
 

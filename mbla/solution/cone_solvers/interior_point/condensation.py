@@ -131,19 +131,19 @@ def _left(
 
 @dataclass(frozen=True)
 class _Rows:
-    """Rows of G of many points over some unknowns of each: half-lines (n, a, C) and cones (3, n, b, C)."""
+    """Rows of G of many points over some unknowns of each: half-lines (n, a, C) and cones (d, n, b, C)."""
 
     of_lines: FloatArray
     of_cones: FloatArray
 
     def scaled(self, lines: IntArray, cones: IntArray, scaling: Scaling) -> FloatArray:
-        """W⁻¹ of the rows, (n, a + 3 b, C)."""
+        """W⁻¹ of the rows, (n, a + d b, C)."""
         n, a, width = self.of_lines.shape
-        b = cones.shape[1]
-        x = np.empty((n, a + 3 * b, width))
+        d, b = len(self.of_cones), cones.shape[1]
+        x = np.empty((n, a + d * b, width))
         np.divide(self.of_lines, scaling.line[lines][:, :, None], out=x[:, :a])
         if b:
-            out = x[:, a:].reshape(n, 3, b, width).transpose(1, 0, 2, 3)
+            out = x[:, a:].reshape(n, d, b, width).transpose(1, 0, 2, 3)
             boosted(scaling.w[:, cones][..., None], self.of_cones, -1.0, out)
             out /= scaling.eta[cones][None, :, :, None]
         return x
@@ -154,7 +154,7 @@ class _Batch:
     """Points of like shape.
 
     lines, cones : (n, a), (n, b) numbers of the half-lines and of the cones
-    rows         : (n, a + 3 b) their components in a vector
+    rows         : (n, a + d b) their components in a vector
     local        : (n, g) local unknowns
     root         : (n, g) √q of these
     over_all     : rows over the C unknowns that are not local
@@ -250,7 +250,7 @@ def _batches(data: ConeData, over_all: sp.csr_array) -> tuple[list[_Batch], list
     """Batches of points, and the unknowns of each set of points with the same ones."""
     product, n = data.product, over_all.shape[1]
     cones, n_units = product.n_lines + np.arange(product.n_cones), product.n_lines + product.n_cones
-    unit_of_row = np.concatenate([np.arange(product.n_lines), cones, cones, cones])
+    unit_of_row = np.concatenate([np.arange(product.n_lines), *(product.dimension * [cones])])
     over_local = sp.csr_array(data.cone_matrix[:, n:])
     held = sp.coo_array(over_local)
     unit = unit_of_row[held.coords[0]]
@@ -281,7 +281,7 @@ def _batch(
 ) -> _Batch:
     lines, cones, local = members
     n_lines, n_cones = data.product.n_lines, data.product.n_cones
-    rows = np.concatenate([lines, *(n_lines + j * n_cones + cones for j in range(3))], axis=1)
+    rows = np.concatenate([lines, *(n_lines + j * n_cones + cones for j in range(data.product.dimension))], axis=1)
     place = np.zeros(data.product.size, dtype=np.int64)
     place[rows] = np.arange(rows.shape[1])
     dense = touched.blocks(points, place, rows.shape[1])
@@ -294,11 +294,12 @@ def _batch(
         own[picked.coords[0], column[picked.coords[1]]] = picked.data
     root = np.sqrt(data.quadratic[local])
     width = lines.shape[1]
-    both = (_rows(dense, width), _rows(own.reshape(*rows.shape, g), width))
+    d = data.product.dimension
+    both = (_rows(dense, width, d), _rows(own.reshape(*rows.shape, g), width, d))
     return _Batch(lines, cones, rows, local, root, *both, size)
 
 
-def _rows(dense: FloatArray, n_lines: int) -> _Rows:
+def _rows(dense: FloatArray, n_lines: int, d: int) -> _Rows:
     n, height, width = dense.shape
-    cones = dense[:, n_lines:].reshape(n, 3, (height - n_lines) // 3, width)
+    cones = dense[:, n_lines:].reshape(n, d, (height - n_lines) // d, width)
     return _Rows(np.ascontiguousarray(dense[:, :n_lines]), np.ascontiguousarray(cones.transpose(1, 0, 2, 3)))

@@ -91,7 +91,8 @@ class CondensedProgram:
             return None, 0
         x, z = self._near
         n_e = len(data.equation_rhs)
-        ended = solve_cone_program(data, condensation, run, warm_start(data, x, z[:n_e], z[n_e:][data.order]))
+        near = warm_start(data, x, z[:n_e], np.append(z[n_e:], 0.0)[data.order])
+        ended = solve_cone_program(data, condensation, run, near)
         if ended.outcome in (Outcome.SOLVED, Outcome.TIME):
             return ended, ended.iterations
         return None, ended.iterations
@@ -127,14 +128,14 @@ class CondensedProgram:
         return progress
 
     def _solution(self, data: ConeData, ended: Ended, iterations: int, seconds: float) -> ConeSolution:
-        cones = np.empty(data.product.size)
+        cones = np.empty(len(self.cone_program.rhs) - len(data.equation_rhs) + 1)
         cones[data.order] = ended.point.z
         assert self._condensation is not None
         return ConeSolution(
             status=STATUSES[ended.outcome],
             solver_status=ended.outcome.value,
             x=ended.point.x,
-            z=np.concatenate([ended.point.y, cones]),
+            z=np.concatenate([ended.point.y, cones[:-1]]),
             objective=ended.measures.primal_objective,
             iterations=iterations,
             seconds=seconds,
@@ -145,8 +146,8 @@ class CondensedProgram:
 
 def fits(program: ConeProgram) -> bool:
     """Whether a program is one that can be condensed."""
-    has_cones = program.n_half_lines + program.n_cones > 0
-    return has_cones and program.n_equations <= MOST_EQUATIONS and not program.further_cones
+    has_cones = program.n_half_lines + program.n_cones + len(program.further_cones) > 0
+    return has_cones and program.n_equations <= MOST_EQUATIONS
 
 
 def condensed_size(program: ConeProgram) -> int:

@@ -1,1 +1,0 @@
-"""Conditions on resultants of whole interfaces, torsion and crushing: associative, and beside elastic joints."""
