@@ -39,7 +39,7 @@ load_cases:
 
 @pytest.mark.every(3)
 @pytest.mark.parametrize(
-    ("strength", "density", "flow_rule"), [(1e5, 2e3, "associative"), (1e12, 1.0, "non_associative")]
+    ("strength", "density", "flow_rule"), [(1e5, 2e3, "associative"), (1e11, 1.0, "non_associative")]
 )
 @pytest.mark.parametrize("outline", OUTLINES)
 def test_a_centred_force_crushes_the_whole_joint(outline: str, strength: float, density: float, flow_rule: str) -> None:

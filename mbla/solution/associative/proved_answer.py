@@ -99,7 +99,7 @@ def solve_until_proved(run: AssociativeRun, form: AssociativeForm) -> ProvedAnsw
 
 def _is_open(run: AssociativeRun, best: ProvedAnswer) -> bool:
     """Whether another program is wanted, and allowed."""
-    return not is_decided(run, best) and best.solution.status not in (Status.TIME_LIMIT, Status.ITERATION_LIMIT)
+    return not is_decided(run, best) and best.solution.status is not Status.TIME_LIMIT
 
 
 def _in_units_of(run: AssociativeRun, found: ProvedAnswer) -> AssociativeForm | None:
