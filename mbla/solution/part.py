@@ -18,10 +18,8 @@ from mbla.solution.associative.solve_associative import AssociativeResult, solve
 from mbla.solution.cone_solvers.cone_solution import Log
 from mbla.solution.law.interfaces import NONE, Interfaces
 from mbla.solution.nonassociative.alternation import no_mechanism
-from mbla.solution.nonassociative.law_state import SequenceResult
 from mbla.solution.nonassociative.least_found import least_found, looks_lower
 from mbla.solution.nonassociative.locking import locks_at_dilatancy
-from mbla.solution.nonassociative.refine_equilibrium import sharpened
 from mbla.solution.nonassociative.schemes import slope_of, solve_nonassociative
 from mbla.solution.nonassociative.torsion import solve_with_torsion
 from mbla.solution.part_result import PartResult
@@ -119,9 +117,6 @@ def _with_least(result: PartResult, settings: SolverSettings, log: Log) -> PartR
     known = len(records)
     try:
         least = least_found(program, slope, state, result.associative, settings, log, records)
-        if least is not None:  # light blocks fit it, too
-            found = SequenceResult(Status.SOLVED, least, "", ())
-            least = sharpened(program, result.associative, slope, found).state
     except np.linalg.LinAlgError as error:
         return result.with_remark(SEARCH_BROKE_DOWN.format(str(error).lower()))
     return replace(result, least=least, more=(*result.more, *records[known:]))

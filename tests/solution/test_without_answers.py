@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from importlib import import_module
 
 import numpy as np
@@ -13,8 +12,6 @@ from mbla.solution.associative.condition_cones import ConditionCones
 from mbla.solution.associative.repair import repaired_forces
 from mbla.solution.associative.solve_associative import solve_associative
 from mbla.solution.nonassociative import livesley
-from mbla.solution.nonassociative import refine_equilibrium as light_blocks
-from mbla.solution.nonassociative.law_state import SequenceResult
 from mbla.solution.nonassociative.livesley import solve_livesley
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Status
@@ -82,21 +79,3 @@ def test_ranges_of_forces_are_left_out_of_parts_of_which_nothing_is_known(monkey
     others = (line.contacts.bodies == 1).any(axis=1)
     assert others.sum() == 1
     assert np.isnan(ranges).all(axis=1).tolist() == others.tolist()
-
-
-def test_states_that_miss_the_law_less_but_too_much_are_not_taken(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Nor is there another one to try without associative forces."""
-    program = line_of(BLOCK, "parameters.h=0.5").program
-    associative = solve_associative(program, SETTINGS, lambda record: None)
-    state = associative.state
-    assert state is not None
-    rough = SequenceResult(Status.APPROXIMATE, replace(state, residual=1e-2), "rough", ())
-    none = replace(associative, state=None)
-    candidates = list(light_blocks._candidates(program, none, 0.0, state))
-    assert 1 <= len(candidates) <= light_blocks.MOST_STEPS
-    better = replace(state, residual=1e-4)
-    monkeypatch.setattr(light_blocks, "_candidates", lambda *arguments: iter([better]))
-    assert light_blocks.sharpened(program, none, 0.0, rough) is rough
-    good = replace(state, residual=1e-9)
-    monkeypatch.setattr(light_blocks, "_candidates", lambda *arguments: iter([better, good]))
-    assert light_blocks.sharpened(program, none, 0.0, rough).status is Status.SOLVED

@@ -141,7 +141,7 @@ def path_of_part(
     if state is not None and not extent.whole:
         v = state.velocities
         moves = v if extent.besides is None else np.where(extent.besides, np.abs(v).max(initial=0.0), v)
-        part = moving_part(program, moves, rings=3, few=1500, worthwhile=0.8)
+        part = moving_part(program, moves)
     known, before = None if state is None else state.load_factor, associative.stress_free
     same = part is None and gaps is None and interfaces is NONE and settings.ratio == RATIOS[0]
     gravity = before.gravity if before is not None and same and np.any(program.dead_load) else None

@@ -58,22 +58,16 @@ class NewtonState:
 
 
 @np.errstate(over="ignore", invalid="ignore")  # iterations that diverge are seen and given up
-def by_newton(
-    step: JointStep, u: FloatArray, factor: float, *, most: int, balanced: float = SHARPEST, shift: float = 0.0
-) -> NewtonState:
+def by_newton(step: JointStep, u: FloatArray, factor: float, *, most: int) -> NewtonState:
     """The last iterate; whether it solves the step what it leaves without balance says.
 
     u, factor : velocities, (n_rows,), and load factor to begin with
     most      : iterations at most
-    balanced  : force without balance, in mean loads of a block, at which it ends; with 0 where rounding lets it fall
-                no further
-    shift     : share of the stiffness of all joints sticking that is added in iterations: blocks whose joints all open
-                have none
     """
     residual, forces = _residual(step, u, factor)
     count = 0
-    while np.abs(residual).max(initial=0.0) > balanced and count < most:
-        found = _iteration(step, u, factor, residual, forces, shift)
+    while np.abs(residual).max(initial=0.0) > SHARPEST and count < most:
+        found = _iteration(step, u, factor, residual, forces)
         count += 1
         if found is None:
             break
@@ -91,13 +85,13 @@ def _residual(step: JointStep, u: FloatArray, factor: float) -> tuple[FloatArray
 
 
 def _iteration(
-    step: JointStep, u: FloatArray, factor: float, residual: FloatArray, forces: JointForces, shift: float
+    step: JointStep, u: FloatArray, factor: float, residual: FloatArray, forces: JointForces
 ) -> tuple[FloatArray, float, FloatArray, JointForces] | None:
     """The next iterate, halved until the residual falls; None where it does not, or where the tangent is singular."""
     joints = step.joints
     compliance = np.vstack([step.normal_compliance, *[step.shear_compliance] * (joints.program.components - 1)])
     tangents = joint_tangents(joints, forces) / compliance.T[:, None, :]
-    springs = step.held + shift * joints.matrix.size * step.length
+    springs = np.broadcast_to(step.held, u.shape)
     solve = joints.matrix.factorized(tangents, springs, fixed_load=not step.driven)
     change = None if solve is None else solve(-residual)
     if change is None or not np.isfinite(change).all():

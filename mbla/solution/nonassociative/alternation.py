@@ -12,10 +12,7 @@ cone program of the kind of the associative one::
     motion  min  −f_D·u + Σ ((μ − δ) N̄ + c) s   sliding against the friction of given normal forces: a cost
 
 so that G falls with every program (alternate convex search: Gorski, Pfeuffer and Klamroth 2007,
-doi:10.1007/s00186-007-0161-1). Where it comes to rest above zero, nearly all of it is left at a few joints that open
-under force. ``emphasize`` gives the power of opening there, (N + f_t) (v_N − δ s), a weight 1 + θ in both programs, as
-penalties of local searches do: it vanishes at the law whatever θ. A wall of 60 courses that rested at 4e-4, half of it
-at two joints, came to 9e-7 so. The motion program alone, with averaged normal forces, is the published procedure
+doi:10.1007/s00186-007-0161-1). The motion program alone, with averaged normal forces, is the published procedure
 (``published``), which chooses forces that happen to belong to a motion, not those that fit it best.
 
 The tilt τ > 0 prefers lower load factors. G is an exact penalty: for small τ the forces are still those of a state of
@@ -46,10 +43,6 @@ FLOOR = 1e-9
 """Least shear limit of the motion program, in mean block loads: without it the sliding speed of an open point has no
 cost and no bound."""
 
-LEFT, MOST_EMPHASIS = 0.01, 300.0
-"""Power of opening under force, over the largest, from which a joint is emphasized more, and θ at most: on walls of 60
-courses 10 and 30 were too little, and where no θ fell again the residual stayed at some 1e-6."""
-
 
 @dataclass
 class Alternation:
@@ -62,7 +55,6 @@ class Alternation:
     late    : whether one of them ran into the time limit
     ended   : the last program that had no solution
     given   : (n_points,) normal forces of the last motion program
-    emphasis: (n_points,) θ
     """
 
     program: Program
@@ -75,10 +67,6 @@ class Alternation:
     late: bool = False
     ended: ConeSolution | None = None
     given: FloatArray = field(default_factory=lambda: np.zeros(0))
-    emphasis: FloatArray = field(init=False)
-
-    def __post_init__(self) -> None:
-        self.emphasis = np.zeros(self.program.n_points)
 
     @cached_property
     def _forces(self) -> tuple[KinematicForm, ConeSolver]:
@@ -157,24 +145,12 @@ class Alternation:
         return None if solution is None else (form.contact_forces(solution.z), -float(solution.z[0]))
 
     def weight(self, velocities: FloatArray) -> FloatArray:
-        """Power of sliding beyond dilatancy for a unit of each normal force, and θ times that of opening, (n_points,).
+        """Power of sliding beyond dilatancy for a unit of each normal force, (n_points,).
 
         velocities : (n_rows,)
         """
-        sliding, opening = self._opening(velocities)
-        return np.asarray((self.program.limits.friction - self.slope) * sliding + self.emphasis * opening)
-
-    def _opening(self, velocities: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Speeds of sliding and of opening beyond dilatancy, (n_points,) each."""
-        v = self.program.contact_velocities(velocities)
-        sliding = np.linalg.norm(v[:, 1:], axis=1)
-        return sliding, np.maximum(v[:, 0] - self.slope * sliding, 0.0)
-
-    def emphasize(self, state: LawState) -> None:
-        """More weight for the joints that open under force in a state, less for the others."""
-        power = self._opening(state.velocities)[1] * (state.forces[:, 0] + self.program.limits.tension)
-        heavier = np.minimum(2.0 * self.emphasis + 1.0, MOST_EMPHASIS)
-        self.emphasis = np.where(power > LEFT * power.max(initial=0.0), heavier, 0.5 * self.emphasis)
+        sliding = np.linalg.norm(self.program.contact_velocities(velocities)[:, 1:], axis=1)
+        return np.asarray((self.program.limits.friction - self.slope) * sliding)
 
     def _solved(self, solver: ConeSolver, kind: str) -> ConeSolution | None:
         number, live = len(self.records) + 1, self.program.scaling.live
@@ -193,8 +169,7 @@ class Alternation:
         """Friction beyond the dilatancy as given normal forces leave it, (n_points,)."""
         limits = self.program.limits
         held = np.maximum((limits.friction - self.slope) * normal + limits.cohesion, FLOOR)
-        opening = limits.tension + self.emphasis * np.maximum(normal + limits.tension, 0.0)
-        return replace(limits, friction=self.slope, cohesion=held, tension=opening)
+        return replace(limits, friction=self.slope, cohesion=held)
 
 
 def no_mechanism(program: Program, settings: SolverSettings, log: Log) -> bool:

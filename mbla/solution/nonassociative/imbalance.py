@@ -12,11 +12,6 @@ NOTHING = 1e-6
 """What a block without weight carries, over the mean load, that is rounding."""
 
 
-def misfit(program: Program, state: LawState) -> float:
-    """Residual of a state with its unbalanced force, the latter block by block."""
-    return max(state.residual, imbalance(program, state))
-
-
 def imbalance(program: Program, state: LawState) -> float:
     """Largest unbalanced force of a block over what it has to balance, at most the mean load of a block.
 

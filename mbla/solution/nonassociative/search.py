@@ -7,7 +7,7 @@ with a tilt once, for what follows is known. On a wall of 49 blocks that is 320 
 from __future__ import annotations
 
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -18,14 +18,13 @@ from mbla.solution.cone_solvers.cone_solution import Log
 from mbla.solution.nonassociative.alternation import Alternation
 from mbla.solution.nonassociative.imbalance import imbalance
 from mbla.solution.nonassociative.law_state import LawState
-from mbla.solution.nonassociative.moving_part import moving_part
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import ProgramRecord
 from mbla.solution.thresholds import EXACT_RESIDUAL, NEAR_ZERO, SOLVED_RESIDUAL
 
-MOST_PAIRS, PATIENCE, AT_REST, PROGRESS = 12, 4, 2, 0.7
+MOST_PAIRS, PATIENCE, PROGRESS = 12, 4, 0.7
 """Pairs of programs from one start at most; given up where so many in a row have not brought the residual to this share
-of what it was, and joints that open under force emphasized after the number before it."""
+of what it was."""
 
 TILTS = ((0.1, 2), (0.03, 2), (0.01, 3))
 """Tilts in turn, and pairs of programs with each. On walls the last is a state of the law; with 0.3 the states were too
@@ -35,9 +34,6 @@ WIDE, COMES_BACK = ((0.5, 3), *TILTS), 2e-3
 """In space a search begins with a larger tilt, and anew without it where that violates the law by more than the second:
 a room went from 0.249 to 0.178 at once, where smaller tilts ended at 0.214 after three descents; vaults, at 1e-2 and
 more, did not come back to the law."""
-
-MOST_PARTS = 2
-"""Times that the part that moves is solved alone before the whole structure is."""
 
 NOTABLE = 1e-4
 """Relative fall of the load factor by a round of the search after which another one is made."""
@@ -88,7 +84,6 @@ class Search:
     records: list[ProgramRecord]
     most: float = np.inf
     found: list[LawState] = field(default_factory=list)
-    spent: int = 0
     limit: float = field(init=False)
     passed: list[tuple[float, FloatArray]] = field(default_factory=list)
     alternation: Alternation = field(init=False)
@@ -104,7 +99,7 @@ class Search:
 
     @property
     def wanted(self) -> float:
-        """Residual that was asked for; a sharper one than that of an exact state is left to ``sharpened``."""
+        """Residual that was asked for; at least that of an exact state."""
         return max(self.settings.residual, EXACT_RESIDUAL)
 
     @property
@@ -115,8 +110,8 @@ class Search:
 
     @property
     def work(self) -> int:
-        """Factorisations of the run and iterations of the programs so far."""
-        return self.spent + self.alternation.work
+        """Iterations of the programs so far."""
+        return self.alternation.work
 
     @property
     def over(self) -> bool:
@@ -158,58 +153,28 @@ class Search:
             self.found.append(state)
 
     def approach(self, normal: FloatArray, velocities: FloatArray | None = None) -> FloatArray:
-        """Pairs of programs from normal forces, (n_points,), until a state fits the law; the last normal forces.
-
-        Where little moves they are those of the moving part, and one pair of the whole says whether the rest carries
-        it, and rests.
+        """Pairs of programs from normal forces, (n_points,), until one fits the law or they stall; the last ones.
 
         velocities : (n_rows,) of the motion program for these forces, if they are known
         """
-        self.alternation.emphasis[:] = 0.0
-        for _ in range(MOST_PARTS):
-            velocities = self.alternation.motion_for(normal) if velocities is None else velocities
-            part = None if velocities is None else moving_part(self.program, velocities)
-            if part is None:
-                break
-            inner = Alternation(part.program, self.slope[part.points], self.settings, self.log, self.records)
-            states = self._pairs(inner, inner.states(normal[part.points]))
-            self.spent += inner.work
-            if not states:
-                break
-            velocities = part.lifted(min(states, key=lambda state: state.residual).velocities)
-            found = self.alternation.forces_for(velocities, 0.0)
-            if found is None:
-                return normal
-            self.keep(state := self.alternation.state(found[0], velocities, found[1]))
-            normal, velocities = state.forces[:, 0], None
-            if state.residual <= self.wanted or self.over:
-                return normal
-        else:
-            velocities = self.alternation.motion_for(normal)
-        for state in self._pairs(self.alternation, self.alternation.states_from(velocities)):
+        velocities = self.alternation.motion_for(normal) if velocities is None else velocities
+        residuals: list[float] = []
+        for state in self.alternation.states_from(velocities):
             self.keep(state)
             normal = state.forces[:, 0]
-        return normal
-
-    def _pairs(self, alternation: Alternation, states: Iterator[LawState]) -> list[LawState]:
-        """States of pairs of programs until one fits the law, or they stall."""
-        found: list[LawState] = []
-        for state in states:
-            found.append(state)
-            residuals = [each.residual for each in found]
-            least, before, recent = min(residuals), *(min(residuals[:-n], default=np.inf) for n in (PATIENCE, AT_REST))
-            if state.residual <= self.wanted or least > PROGRESS * before or len(found) >= MOST_PAIRS or self.over:
+            residuals.append(state.residual)
+            before = min(residuals[:-PATIENCE], default=np.inf)
+            if state.residual <= self.wanted or min(residuals) > PROGRESS * before:
                 break
-            if least > PROGRESS * recent and self.program.components == 2:  # in space it led nowhere better
-                alternation.emphasize(state)
-        return found
+            if len(residuals) >= MOST_PAIRS or self.over:
+                break
+        return normal
 
     def descend(self, normal: FloatArray, tilts: Sequence[tuple[float, int]] = TILTS) -> None:
         """Pairs with tilts in turn from normal forces, (n_points,), until a state fits the law.
 
         Ends where it comes to a motion from which another descent went on: all that follows is known.
         """
-        self.alternation.emphasis[:] = 0.0
         first = velocities = self.alternation.motion_for(normal)
         state, own = None, len(self.passed)
         for tilt, pairs in tilts:

@@ -17,9 +17,8 @@ from mbla.solution.associative.solve_associative import AssociativeResult, solve
 from mbla.solution.nonassociative.elastic import solve_by_elastic_path
 from mbla.solution.nonassociative.law_state import LawState, SequenceResult
 from mbla.solution.nonassociative.least_found import least_found
-from mbla.solution.nonassociative.refine_equilibrium import sharpened
 from mbla.solution.settings import SolverSettings
-from mbla.solution.solution import ProgramRecord, Status
+from mbla.solution.solution import ProgramRecord
 from tests.line import HEAD
 
 SETTINGS = SolverSettings(tolerance=1e-8)
@@ -114,13 +113,11 @@ def least_of(
     settings: SolverSettings = SETTINGS,
     records: list[ProgramRecord] | None = None,
 ) -> LawState:
-    """The least state of rigid joints that the search finds from the path, sharpened as it is in every run."""
+    """The least state of rigid joints that the search finds from the path."""
     slopes = slope * np.ones(program.n_points)
     associative, (_, path) = associative_of(program, settings), by_path(program, slope, settings)
     assert path.state is not None, path.reason
     to = [] if records is None else records
     least = least_found(program, slopes, path.state, associative, settings, lambda record: None, to)
     assert least is not None
-    found = sharpened(program, associative, slopes, SequenceResult(Status.SOLVED, least, "", ())).state
-    assert found is not None
-    return found
+    return least

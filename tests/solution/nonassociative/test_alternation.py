@@ -26,25 +26,21 @@ def programs_of(program: Program, slope: FloatArray | float = 0.0) -> Alternatio
 
 
 def off_the_law(alternation: Alternation, forces: FloatArray, load_factor: float, velocities: FloatArray) -> float:
-    """G, non-dimensional, of joints without a strength in compression, with the power of emphasized openings."""
+    """G, non-dimensional, of joints without a strength in compression."""
     program, limits = alternation.program, alternation.program.limits
     v = (program.equilibrium_matrix.T @ velocities).reshape(-1, program.components)
     sliding = np.linalg.norm(v[:, 1:], axis=1)
     opening = v[:, 0] - alternation.slope * sliding
     held = np.maximum((limits.friction - alternation.slope) * forces[:, 0] + limits.cohesion, FLOOR)
     power = held @ sliding + limits.tension @ np.maximum(opening, 0.0)
-    power += alternation.emphasis @ ((forces[:, 0] + limits.tension) * np.maximum(opening, 0.0))
     return float(power - program.dead_load @ velocities - load_factor)
 
 
 @pytest.mark.parametrize("overrides", [(), ("joints.dry.cohesion=300", "joints.dry.tensile_strength=200")])
-@pytest.mark.parametrize(("share", "emphasis"), [(0.0, 0.0), (0.3, 0.0), (0.0, 5.0), (0.3, 5.0)])
-def test_neither_program_lets_the_state_leave_the_law(
-    share: float, emphasis: float, overrides: tuple[str, ...]
-) -> None:
+@pytest.mark.parametrize("share", [0.0, 0.3])
+def test_neither_program_lets_the_state_leave_the_law(share: float, overrides: tuple[str, ...]) -> None:
     program = planar_program(line_of(FERRIS_3, *overrides))
     alternation = programs_of(program, share * program.limits.friction)
-    alternation.emphasis = emphasis * np.random.default_rng(1).random(program.n_points)
     normal, values = np.exp(np.random.default_rng(0).normal(size=program.n_points)), []
     velocities = alternation.motion_for(normal)
     for _ in range(4):
@@ -64,7 +60,6 @@ def test_a_state_of_the_law_is_left_as_it_is() -> None:
     """A sliding block: forces of friction on a motion along the ground, λ = μ and G = 0 from the first pair on."""
     program = line_of(BLOCK, "parameters.h=0.5").program
     alternation = programs_of(program)
-    alternation.emphasis[:] = 10.0
     velocities = alternation.motion_for(np.full(program.n_points, 1.0 / program.n_points))
     assert velocities is not None
     found = alternation.forces_for(velocities, 0.0)
@@ -83,18 +78,6 @@ def test_a_little_tilt_finds_an_end_of_the_range_of_a_mechanism(tilt: float, end
     velocities = least_of(program).velocities
     _, load_factor = programs_of(program).forces_for(velocities, tilt) or (np.nan, np.nan)
     assert program.scaling.load_factor(load_factor) == pytest.approx(end, abs=2e-7)
-
-
-def test_joints_that_open_under_force_get_more_weight_and_others_less() -> None:
-    program = line_of(BLOCK).program
-    alternation = programs_of(program)
-    alternation.emphasis[:] = 8.0
-    forces = np.zeros((program.n_points, 3))
-    forces[:, 0] = np.where(np.arange(program.n_points) < 1, 1.0, 0.0)
-    lift = np.zeros(len(program.dead_load))
-    lift[2] = 1.0
-    alternation.emphasize(alternation.state(forces, lift, 1.0))
-    assert alternation.emphasis.tolist() == [17.0] + [4.0] * (program.n_points - 1)
 
 
 def test_each_pair_is_recorded_as_two_programs() -> None:

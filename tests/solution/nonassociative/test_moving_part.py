@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 import numpy as np
 import pytest
 
 from mbla.solution.nonassociative import moving_part as module
-from mbla.solution.nonassociative.alternation import Alternation
 from mbla.solution.nonassociative.moving_part import moving_part
 from tests.line import BLOCK, line_of
 from tests.solution.nonassociative.structures import FERRIS_5, least_of
@@ -35,29 +32,6 @@ def test_the_motion_of_a_part_is_one_of_the_whole(monkeypatch: pytest.MonkeyPatc
     full = (program.equilibrium_matrix.T @ state.velocities).reshape(-1, 2)[part.points]
     assert (part.program.equilibrium_matrix.T @ inner).reshape(-1, 2) == pytest.approx(full, abs=1e-9)
     assert part.program.live_load @ inner == pytest.approx(1.0)
-
-
-def test_a_wall_is_searched_by_its_moving_part(monkeypatch: pytest.MonkeyPatch) -> None:
-    program = planar_program(line_of(FERRIS_5))
-    whole = least_of(program)
-    allow_small_parts(monkeypatch)
-    sizes: list[int] = []
-    monkeypatch.setattr(Alternation, "__post_init__", noting(sizes))
-    by_part = least_of(program)
-    assert min(sizes) < program.n_points == max(sizes)
-    assert by_part.residual < 1e-6
-    assert by_part.load_factor == pytest.approx(whole.load_factor, rel=2e-3)
-
-
-def noting(sizes: list[int]) -> Callable[[Alternation], None]:
-    """Initialises as before, and notes how many points the programs have."""
-    before = Alternation.__post_init__
-
-    def after(self: Alternation) -> None:
-        before(self)
-        sizes.append(self.program.n_points)
-
-    return after
 
 
 def test_small_programs_and_those_that_move_as_a_whole_have_no_part(monkeypatch: pytest.MonkeyPatch) -> None:
