@@ -21,6 +21,7 @@ from mbla.solution.associative.solve_associative import AssociativeResult
 from mbla.solution.cone_solvers.cone_solution import Log
 from mbla.solution.law.interfaces import NONE, Interfaces
 from mbla.solution.nonassociative.law_state import LawState
+from mbla.solution.nonassociative.polished import polished
 from mbla.solution.nonassociative.search import Search
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import ProgramRecord
@@ -69,4 +70,4 @@ def least_found(
     if search.answer is None or search.answer.residual > SOLVED_RESIDUAL:
         return None
     search.lower(normals[1:])
-    return search.answer
+    return None if search.answer is None else polished(program, slope, search.answer)

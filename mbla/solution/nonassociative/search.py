@@ -1,7 +1,6 @@
 """States of the joint law by pairs of programs (``alternation``), and from each of them states of lower load factors.
 
-A descent is a sequence of pairs whose tilt falls. Several descents come to the same motions: each goes on from a motion
-with a tilt once, for what follows is known. On a wall of 49 blocks that is 320 iterations for 800, the states the same.
+A descent is a sequence of pairs whose tilt falls.
 """
 
 from __future__ import annotations
@@ -47,9 +46,6 @@ on 60 courses 4,000 had not found it."""
 FEWEST_PAIRS = 4
 """Pairs of programs for which there must be work left for a descent to begin: cut short it ends off the law."""
 
-SAME_MOTION = 1e-4
-"""Relative difference of two motions of unit live work that are one, and lead on alike."""
-
 NEEDLESS = 1e-6
 """Load factor, over dead load over live load of the blocks that move, of a mechanism that needs no live load: in space
 a block can turn about the one contact point that carries all its force. That fits the law and says nothing of a
@@ -74,7 +70,6 @@ class Search:
     """States found so far, and what was spent on them: factorisations of the run, iterations of programs.
 
     most   : associative load factor, infinite where there is none
-    passed : tilts and motions, (n_rows,) each, that descents went on from
     """
 
     program: Program
@@ -85,7 +80,6 @@ class Search:
     most: float = np.inf
     found: list[LawState] = field(default_factory=list)
     limit: float = field(init=False)
-    passed: list[tuple[float, FloatArray]] = field(default_factory=list)
     alternation: Alternation = field(init=False)
 
     def __post_init__(self) -> None:
@@ -171,29 +165,17 @@ class Search:
         return normal
 
     def descend(self, normal: FloatArray, tilts: Sequence[tuple[float, int]] = TILTS) -> None:
-        """Pairs with tilts in turn from normal forces, (n_points,), until a state fits the law.
-
-        Ends where it comes to a motion from which another descent went on: all that follows is known.
-        """
+        """Pairs with tilts in turn from normal forces, (n_points,), until a state fits the law."""
         first = velocities = self.alternation.motion_for(normal)
-        state, own = None, len(self.passed)
         for tilt, pairs in tilts:
             factor = np.inf
             for _ in range(pairs):
-                if velocities is None:
+                found = None if velocities is None else self.alternation.pair(velocities, tilt)
+                if found is None:
                     break
-                met = self._met(velocities, tilt)
-                if met < own:
-                    return
-                if met == len(self.passed):  # else it rests at the state before
-                    self.passed.append((tilt, velocities))
-                    found = self.alternation.pair(velocities, tilt)
-                    if found is None:
-                        break
-                    state, velocities = found
-                    self.keep(state)
-                    normal = state.forces[:, 0]
-                assert state is not None  # this descent came to it
+                state, velocities = found
+                self.keep(state)
+                normal = state.forces[:, 0]
                 before, factor = factor, state.load_factor
                 if state.residual > COMES_BACK and tilt > TILTS[0][0]:
                     velocities = first
@@ -201,14 +183,6 @@ class Search:
                 if self.over or (state.residual <= self.wanted and factor > (1.0 - NOTABLE) * before):
                     return
         self.approach(normal, velocities)
-
-    def _met(self, velocities: FloatArray, tilt: float) -> int:
-        """Which of the motions passed these velocities, (n_rows,), are, with the same tilt; their number if none."""
-        near = SAME_MOTION * float(np.linalg.norm(velocities))
-        for number, (other, motion) in enumerate(self.passed):
-            if other == tilt and float(np.linalg.norm(motion - velocities)) <= near:
-                return number
-        return len(self.passed)
 
     def lower(self, normals: list[FloatArray]) -> None:
         """Descents from the lowest state as long as they lead lower, then from normal forces, within the work."""

@@ -75,7 +75,7 @@ def test_a_state_of_the_law_is_left_as_it_is() -> None:
 def test_a_little_tilt_finds_an_end_of_the_range_of_a_mechanism(tilt: float, end: float) -> None:
     """G is an exact penalty. Two cone programs of another author gave 0.35582 ... 0.37938 for wall 3."""
     program = planar_program(line_of(FERRIS_3))
-    velocities = least_of(program).velocities
+    velocities = least_of(program, settings=SHARP).velocities
     _, load_factor = programs_of(program).forces_for(velocities, tilt) or (np.nan, np.nan)
     assert program.scaling.load_factor(load_factor) == pytest.approx(end, abs=2e-7)
 

@@ -203,15 +203,3 @@ def test_states_that_miss_the_law_are_not_taken(monkeypatch: pytest.MonkeyPatch)
     monkeypatch.setattr(Search, "keep", rough)
     slope = np.zeros(program.n_points)
     assert least_found(program, slope, associative.state, associative, SETTINGS, lambda record: None, []) is None
-
-
-def test_a_descent_ends_where_another_one_went_on() -> None:
-    """The second costs one program, the motion by which it is known; whatever follows would be the same again."""
-    program = planar_program(line_of(WALL))
-    search = Search(program, np.zeros(program.n_points), SETTINGS, lambda record: None, [])
-    normal = np.full(program.n_points, 1.0 / program.n_points)
-    search.descend(normal)
-    first, states = search.alternation.programs, len(search.found)
-    assert first > 2
-    search.descend(normal)
-    assert (search.alternation.programs, len(search.found)) == (first + 1, states)

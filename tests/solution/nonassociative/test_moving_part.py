@@ -1,4 +1,4 @@
-"""The part that moves as a program of its own: its way back, and walls that are searched by it and as a whole alike."""
+"""The part that moves as a program of its own: its way back."""
 
 from __future__ import annotations
 
@@ -20,9 +20,9 @@ def allow_small_parts(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_the_motion_of_a_part_is_one_of_the_whole(monkeypatch: pytest.MonkeyPatch) -> None:
-    allow_small_parts(monkeypatch)
     program = planar_program(line_of(FERRIS_5))
     state = least_of(program)
+    allow_small_parts(monkeypatch)
     part = moving_part(program, state.velocities)
     assert part is not None
     assert len(part.points) < program.n_points
