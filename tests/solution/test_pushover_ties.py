@@ -138,7 +138,7 @@ def test_a_strip_comes_off_as_it_slips_unless_the_deck_says_otherwise() -> None:
         if held:
             assert first.load_factor == pytest.approx(whole, rel=1e-5)
         else:  # it comes off before the joint is open, as stiff as a point of the joint
-            assert 0.2 < first.load_factor < whole
+            assert 0.2 < first.load_factor < whole * (1.0 + 1e-9)  # rounding
         for row in rows:
             turned = np.arctan(0.2) - np.arcsin(np.sin(np.arctan(0.2)) - row.displacement / np.hypot(0.2, 1.0))
             height = 0.2 * np.sin(turned) + np.cos(turned)

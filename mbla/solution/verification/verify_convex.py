@@ -38,7 +38,7 @@ from mbla.solution.verification.interface_laws import (
     torsion_power,
 )
 from mbla.solution.verification.residuals import residuals_of
-from mbla.solution.verification.statics import allowed_motion
+from mbla.solution.verification.statics import allowed_motion, largest_on_interface
 from mbla.solution.verification.verify_points import checked
 
 ROUNDED_OFF = 1e-9
@@ -147,7 +147,9 @@ class InterfaceCase(Case):
         if self.flow_rule == "associative":
             twisted, lacking = torsion_power(laws, motions[:, 0])
             twisted = twisted + np.maximum(lacking, 0.0) * np.maximum(resultants[:, 0] + laws.tension, 0.0)
-        crushed = crushing_power(laws, motions[:, 1])
+        # no force comes near a strength of more: what crushes is at its own
+        most = 2.0 * largest_on_interface(self.contacts, mechanics.contact_forces)
+        crushed = crushing_power(laws, motions[:, 1], most)
         slip = np.abs(twisted + (resultants * motions[:, 0]).sum(axis=1))
         of_crushing = np.abs(crushed + (resultants * motions[:, 1]).sum(axis=1))
         return InterfaceTerms(
@@ -246,8 +248,12 @@ class InterfaceCase(Case):
         return super().forces_prove(forces, factor) and bool(np.all(self._excess(forces) <= of_interfaces))
 
     def charge(self, forces: FloatArray, factor: float, motion: Motion) -> float:
-        """Nothing: forces, (n_points, 3) N, are repaired to less than rounding."""
-        return 0.0
+        """That of the points, and of forces of interfaces beyond their conditions at the fastest of their points."""
+        motions, interface = self._motions(motion[1]), self.contacts.interface_of_point
+        moved = motions[interface, :, :3] + np.cross(motions[interface, :, 3:], self._arms[:, None])
+        speed = np.maximum.reduceat(np.linalg.norm(moved, axis=2).max(axis=1), self.contacts.point_start[:-1])
+        beyond = float((np.maximum(self._excess(forces), 0.0) * speed).sum()) / self.powers(motion[0])[1]
+        return super().charge(forces, factor, motion) + beyond
 
     def dissipation(self, motion: Motion, most: float = np.inf) -> tuple[float, float]:
         """Power that joints dissipate at most by associative flow, and Σ of what motions lack in opening."""

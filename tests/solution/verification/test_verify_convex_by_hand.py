@@ -324,9 +324,9 @@ def proved(line: Line, mechanics: Mechanics) -> tuple[float, float]:
 
 @pytest.mark.usefixtures("mended")
 def test_what_may_be_left_unbalanced(dry: Line) -> None:
-    """2e-9 of the weight, 8e-9 of the load factor."""
+    """2e-9 of the weight, 8e-9 of the load factor, with which the bound is charged."""
     for off in (7.9e-9, -7.9e-9):
-        assert proved(dry, answer(dry, factor=2.0 + off))[0] == pytest.approx(2.0 + off, abs=1e-12)
+        assert proved(dry, answer(dry, factor=2.0 + off))[0] == pytest.approx(2.0 + off - abs(off), abs=1e-12)
     for off in (8.1e-9, -8.1e-9, 1.0):
         assert np.isnan(proved(dry, answer(dry, factor=2.0 + off))[0])
 
@@ -335,7 +335,8 @@ def test_what_may_be_left_unbalanced(dry: Line) -> None:
 def test_what_corners_may_be_beyond_yield(dry: Line) -> None:
     for off, proves in ((3.1e-8, True), (3.3e-8, False), (1.0, False)):
         static, _ = proved(dry, answer(dry, (8, -4 - 2 * off, 0), factor=2.0 + off))
-        assert (static == pytest.approx(2.0 + off, abs=1e-12)) if proves else np.isnan(static)
+        # charged with what is beyond yield
+        assert (2.0 - 4.0 * off <= static <= 2.0 + off) if proves else np.isnan(static)
 
 
 @pytest.mark.usefixtures("mended")
