@@ -2,8 +2,8 @@
 
 ``solve`` goes through the parts of a structure; ``part`` alone decides by which flow rule and scheme each is solved and
 what is found in addition to its load factor, by one record of ``settings``. ``associative`` proves a factor from both
-sides, ``nonassociative`` has one file a scheme on the same joint law, ``standing`` the state of the stress-free
-assembly, ``resultants`` the same with conditions on interfaces.
+sides, conditions on interfaces included; ``law`` has the step of elastic joints, ``flow`` their path, ``standing`` the
+state of the stress-free assembly; ``nonassociative`` has one file a scheme.
 
 ``verification`` recomputes everything from model, contacts and solution, without a solver. ``cone_solvers`` is the door
 to those who solve cone programs: the interior-point method of this package, and clarabel, each behind its

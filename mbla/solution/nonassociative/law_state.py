@@ -15,7 +15,7 @@ from mbla.program.static import PointMotion
 from mbla.program.yield_conditions import yield_violation
 from mbla.solution.cone_solvers.cone_solution import ConeSolution
 from mbla.solution.solution import PathByStiffness, PathPoint, ProgramRecord, Status
-from mbla.solution.thresholds import APPROXIMATE_RESIDUAL, NEAR_ZERO, SOLVED_RESIDUAL, STILL
+from mbla.solution.thresholds import NEAR_ZERO, SOLVED_RESIDUAL, STILL
 
 AS_ASKED = Message(
     "law-missed", "forces and velocities violate the joint law: residual {:.2g}, within the requested {:g}"
@@ -90,14 +90,6 @@ def as_asked(state: LawState, residual: float, wanted: float, programs: tuple[Pr
     return SequenceResult(Status.APPROXIMATE, state, words, programs, tolerance_requested=wanted)
 
 
-def not_at_rest(best: LawState, words: Message, programs: tuple[ProgramRecord, ...]) -> SequenceResult:
-    """The best state of steps that did not come to rest, judged by its residual; ``words`` say so."""
-    if best.residual <= SOLVED_RESIDUAL:
-        return SequenceResult(Status.SOLVED, best, "", programs, remarks=(words,))
-    status = Status.APPROXIMATE if best.residual <= APPROXIMATE_RESIDUAL else Status.NOT_VERIFIED
-    return SequenceResult(status, best, words, programs)
-
-
 def broken_off(
     solution: ConeSolution, programs: Sequence[ProgramRecord], best: LawState | None = None, reason: str = ""
 ) -> SequenceResult:
@@ -136,19 +128,6 @@ def law_state(
     closing = float(np.where(crushable, 0.0, closes).max(initial=0.0)) / speed
     excess = float(yield_violation(forces, limits).max(initial=0.0))
     return LawState(forces, velocities, load_factor, max(excess, closing, float(unexplained.sum()) / balance))
-
-
-def residual_with_closing(program: Program, slope: FloatArray | float, state: LawState) -> float:
-    """The residual of a state as verification sees it: what normal forces do where joints close counts too.
-
-    ``law_state`` leaves it out; of a rough state it may be the most.
-
-    slope : tangent of the dilatancy angle, (n_points,) or one for all
-    """
-    _, surplus, unexplained, balance = _unexplained(program, slope, state.forces, state.velocities, state.load_factor)
-    closing = np.where(np.isfinite(program.limits.compression), 0.0, np.maximum(-surplus, 0.0))
-    unexplained += np.abs(state.forces[:, 0] * closing)
-    return max(state.residual, float(unexplained.sum()) / balance)
 
 
 def _unexplained(

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from mbla.program.program import Program
-from mbla.solution.nonassociative.law_state import LawState, law_state, residual_with_closing
+from mbla.solution.nonassociative.law_state import LawState, law_state
 from mbla.solution.thresholds import NEAR_ZERO
 from tests.line import BLOCK, line_of
 
@@ -40,7 +40,6 @@ def test_what_is_missed_is_a_share_of_the_balance_or_of_next_to_nothing(friction
     program = line_of(BLOCK, f"parameters.mu={friction!r}").program
     state = sliding(program, friction, 0.9)
     assert state.residual == pytest.approx(miss, rel=1e-6)
-    assert residual_with_closing(program, 0.0, state) == pytest.approx(miss, rel=1e-6)
 
 
 def test_next_to_nothing_is_measured_on_the_blocks_that_move() -> None:
@@ -65,4 +64,3 @@ def test_a_joint_that_lifts_by_less_than_its_sliding_misses_the_law(lift: float)
     expected = weight * (0.5 - lift) * velocities[0] / (balance * velocities[0])
     state = law_state(program, 0.5, slides.forces, velocities, 0.5)
     assert state.residual == pytest.approx(expected, abs=1e-12)
-    assert residual_with_closing(program, 0.5, state) == pytest.approx(expected, abs=1e-12)
