@@ -32,9 +32,9 @@ SMALL, NOISE, ZERO_SIZE = 1e-3, 1e-10, 1e-7
 """Shares of dead over live load: below the first a load factor is computed again in units of its own size, which is not
 known below the second; then the third stands for it."""
 
-SHARPER, SHARPEST, HALF_WAY = 1e-2, 1e-12, 0.5
-"""Factor on the tolerance of the second method, the least tolerance, and power of the size of a load factor that is the
-second one's unit of live power."""
+SHARPER, SHARPEST, POWERS = 1e-2, 1e-12, (0.5, 1.0)
+"""Factor on the tolerance of the second method, the least tolerance, and powers of the size of a load factor that are the
+second one's units of live power, in turn: an arch at its least thickness is sharpest in its own."""
 
 ROUGH = 1e3
 """Friction that counts in the second method."""
@@ -89,9 +89,10 @@ def solve_until_proved(run: AssociativeRun, form: AssociativeForm) -> ProvedAnsw
         sharpest, other = replace(sharpest, solver=own), replace(other, solver=other_method(own))
     # of strengths beyond numbers one method may say that they bear everything
     unsure = run.program.conditions is not None and best.solution.status is Status.UNBOUNDED
-    if unsure or _is_open(run, best):
-        half_way = _size(run, first) ** HALF_WAY
-        best = better(best, _answer(run, _in_units_of(run, first) or form, half_way, other))
+    for power in POWERS:
+        if unsure or _is_open(run, best):
+            best = better(best, _answer(run, _in_units_of(run, first) or form, _size(run, best) ** power, other))
+            unsure = False
     if _is_open(run, best):
         best = better(best, _answer(run, form, 1.0, sharpest))
     return best

@@ -90,7 +90,9 @@ class GreatestSteps:
         What the smoothed steps before have left is made up for in the step of the peak, whose motion has that in it.
         """
         step = replace(top.step, memory=top.memory, length=ONWARDS * self.unit)
-        start = centred(step.joints, at_rest_of(step, top.state, top.sigma), top.sigma, WITHIN)
+        start = top.state
+        if not step.joints.laws:  # solved by Newton's method it has no products
+            start = centred(step.joints, at_rest_of(step, top.state, top.sigma), top.sigma, WITHIN)
         after = self.solve(replace(top, step=step, state=start))
         level = after.is_solved and abs(after.state.factor - top.state.factor) <= ALIKE * abs(top.state.factor)
         return after if level else top
