@@ -10,6 +10,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from mbla.arrays import FloatArray
 from mbla.errors import Message
 from mbla.program.program import Program
 from mbla.solution.associative.certificate import steepest_fall
@@ -89,8 +90,19 @@ def _unloaded_part(program: Program, settings: SolverSettings, log: Log) -> Part
         relieved = replace(program, live_load=-program.dead_load)
         result = solve_associative(relieved, settings, log, stress_free=settings.standing)
     if result.status in WITH_VALUE:
-        result = replace(result, status=Status.UNBOUNDED, state=None, reason="no live load acts on it")
+        result = replace(
+            result, status=Status.UNBOUNDED, state=None, reason="no live load acts on it", below=_at_zero(result)
+        )
     return PartResult(program, result, None, loaded=False)
+
+
+def _at_zero(result: AssociativeResult) -> tuple[FloatArray, float] | None:
+    """Forces under the dead load alone, between those known below and at the load factor; None without."""
+    state, below = result.state, result.below
+    if state is None or below is None or not state.load_factor > below[1]:
+        return None
+    share = -below[1] / (state.load_factor - below[1])
+    return (1.0 - share) * below[0] + share * state.forces, 0.0
 
 
 def _locked_by_dilatancy(result: PartResult, settings: SolverSettings, log: Log, interfaces: Interfaces) -> PartResult:

@@ -41,6 +41,7 @@ def assemble_parts(
     log: Log,
     collapse: Sequence[LawState | None] = (),
     interfaces: Interfaces = NONE,
+    below: Sequence[tuple[FloatArray, float] | None] = (),
 ) -> tuple[Program, LawState] | None:
     """A state of one part as one of the full model, the other parts at rest; None where these do not carry it.
 
@@ -48,6 +49,7 @@ def assemble_parts(
 
     collapse   : of each part its own state at collapse, None where there is none; nothing where none is known
     interfaces : of the model that have a law of their own
+    below      : of each part forces at a load factor of zero or below, None where there are none
     """
     if len(parts) == 1:
         return parts[0], state
@@ -55,7 +57,10 @@ def assemble_parts(
     for number, other in enumerate(parts):
         own: LawState | None = state
         if number != part:
-            own = _resting(other, collapse[number] if collapse else None, state.load_factor, settings, log, interfaces)
+            known = collapse[number] if collapse else None, below[number] if below else None
+            own = _between(other, *known, state.load_factor)
+            if own is None:
+                own = _resting(other, known[0], state.load_factor, settings, log, interfaces)
             own = own if own is None or state.history is None else _remembered(other, own, state.history)
         if own is None:
             return None
@@ -93,6 +98,23 @@ def _sum(one: FloatArray | None, other: FloatArray | None) -> FloatArray | None:
     if one is None or other is None:
         return one if other is None else other
     return one + other
+
+
+def _between(
+    program: Program, collapse: LawState | None, below: tuple[FloatArray, float] | None, load_factor: float
+) -> LawState | None:
+    """Forces of a part with conditions on interfaces between two that are proved; None without such.
+
+    Both keep within all conditions and balance the loads at their load factors, and so does what lies between.
+    """
+    if program.conditions is None or below is None:
+        return None
+    if not np.any(program.live_load):
+        return LawState(below[0], np.zeros_like(program.dead_load), load_factor, 0.0)
+    if collapse is None or not below[1] <= load_factor <= collapse.load_factor:
+        return None
+    share = (load_factor - below[1]) / (collapse.load_factor - below[1])
+    return _without_motion(collapse, (1.0 - share) * below[0] + share * collapse.forces, load_factor)
 
 
 def _resting(

@@ -85,15 +85,17 @@ class _Stage:
         flow_rule: str,
         collapse: Sequence[LawState | None] = (),
         interfaces: Interfaces = NONE,
+        below: Sequence[tuple[FloatArray, float] | None] = (),
     ) -> Mechanics | None:
         """A state of one part as mechanics of the full model; None where the other parts do not carry it.
 
         collapse   : of each part its own state at collapse
+        below      : of each part forces at a load factor of zero or below
         interfaces : that have a law of their own in these states
         """
         if state is None:
             return None
-        assembled = assemble_parts(self.parts, part, state, self.settings, self.log, collapse, interfaces)
+        assembled = assemble_parts(self.parts, part, state, self.settings, self.log, collapse, interfaces, below)
         return None if assembled is None else mechanics_of(*assembled, flow_rule)
 
 
@@ -218,7 +220,7 @@ def _combined(stage: _Stage, results: Sequence[PartResult]) -> Solution:
     bounded = [part for part, result in enumerate(results) if _load_factor(result) < np.inf]
     if not bounded:
         loaded = [part for part, result in enumerate(results) if result.loaded]
-        return _without_load_factor(stage, loaded[0], results[loaded[0]])
+        return _without_load_factor(stage, loaded[0], results[loaded[0]], results)
     first = min(bounded, key=lambda part: _load_factor(results[part]))
     first_associative = min(range(len(results)), key=lambda part: _factor(results[part].associative.state))
     return _with_load_factor(stage, results, first, first_associative)
@@ -233,13 +235,24 @@ def _factor(state: LawState | None) -> float:
     return np.inf if state is None else state.load_factor
 
 
-def _without_load_factor(stage: _Stage, part: int, result: PartResult) -> Solution:
+def _known_lock(stage: _Stage, results: Sequence[PartResult]) -> FloatArray | None:
+    """Forces of all parts that balance the live load alone, (n_points, 3), where every loaded part has such."""
+    loaded = [(stage.parts[part], result.associative.lock) for part, result in enumerate(results) if result.loaded]
+    forces = [program.lift.contact_forces(lock) for program, lock in loaded if lock is not None]
+    if not forces or len(forces) < len(loaded):
+        return None
+    scaling = stage.parts[0].full.scaling
+    return scaling.forces(np.sum(forces, axis=0)) / scaling.live
+
+
+def _without_load_factor(stage: _Stage, part: int, result: PartResult, results: Sequence[PartResult] = ()) -> Solution:
     associative, lock = result.associative, None
     status, reason = associative.status, associative.reason
     if status is Status.UNBOUNDED and result.sequence is not None:  # nothing is known by the flow rule of the analysis
         status, reason = result.sequence.status, result.sequence.reason
     if status is Status.UNBOUNDED:
-        lock = locking_forces(stage.parts, stage.settings, stage.log)
+        lock = _known_lock(stage, results) if results else None
+        lock = locking_forces(stage.parts, stage.settings, stage.log) if lock is None else lock
         if lock is None:
             status, reason = Status.NOT_VERIFIED, LOCK_NOT_PROVED
     motion, motions = None, None
@@ -258,7 +271,12 @@ def _with_load_factor(stage: _Stage, results: Sequence[PartResult], first: int, 
         _solution(stage.settings, *_claim(results, first)),
         tolerance_requested=_tolerance_requested(results),
         associative=stage.mechanics(
-            first_associative, solved[first_associative], "associative", solved, stage.interfaces
+            first_associative,
+            solved[first_associative],
+            "associative",
+            solved,
+            stage.interfaces,
+            [each.associative.below for each in results],
         ),
         lock=locking_forces(stage.parts, stage.settings, stage.log) if locked else None,
     )

@@ -33,8 +33,8 @@ SMALL, NOISE, ZERO_SIZE = 1e-3, 1e-10, 1e-7
 known below the second; then the third stands for it."""
 
 SHARPER, SHARPEST, POWERS = 1e-2, 1e-12, (0.5, 1.0)
-"""Factor on the tolerance of the second method, the least tolerance, and powers of the size of a load factor that are the
-second one's units of live power, in turn: an arch at its least thickness is sharpest in its own."""
+"""Factor on the tolerance of the second method, the least tolerance, and powers of the size of a load factor that are
+the second one's units of live power, in turn: an arch at its least thickness is sharpest in its own."""
 
 ROUGH = 1e3
 """Friction that counts in the second method."""

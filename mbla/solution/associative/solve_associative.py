@@ -54,6 +54,10 @@ class AssociativeResult:
     tolerance_requested : approximate: the distance of the bounds that was asked for, and reached; None where it was not
     gap_words   : approximate for no other reason than that the bounds are apart: how far, in words; else empty
     stress_free : what the dead load does to the stress-free assembly, None where that was not examined
+    below       : forces, (n_points, components), and a load factor of zero or below that they carry; None where none
+                  were needed
+    lock        : unbounded with conditions on interfaces: forces that balance the live load alone, for a load factor of
+                  1; None where none were found
     """
 
     status: Status
@@ -65,6 +69,8 @@ class AssociativeResult:
     tolerance_requested: float | None = None
     gap_words: str = ""
     stress_free: StressFree | None = field(default=None, repr=False)
+    below: tuple[FloatArray, float] | None = field(default=None, repr=False)
+    lock: FloatArray | None = field(default=None, repr=False)
 
 
 def solve_associative(
@@ -110,8 +116,9 @@ def _proves(run: AssociativeRun, state: StressFree) -> bool:
     if run.program.conditions is not None:  # which these forces need not fulfil
         return False
     if run.program.facts.settles:  # with the reaction that it has while it is held
-        return _carries(run, state.rest.forces, state.rest.load_factor)
-    return _carried_alone(run.program.without_live_load(), state.rest.forces) or _carries(run, state.rest.forces, 0.0)
+        return _carrying(run, state.rest.forces, state.rest.load_factor) is not None
+    forces = state.rest.forces
+    return _carried_alone(run.program.without_live_load(), forces) or _carrying(run, forces, 0.0) is not None
 
 
 @shared("carried")
@@ -125,13 +132,14 @@ def _with_dead_load(run: AssociativeRun, answer: ProvedAnswer, *, proved: bool) 
 
     proved : it is known already
     """
-    reverse, carried = answer.solution, proved or not run.program.dead_load.any()
+    reverse, carried, below = answer.solution, proved or not run.program.dead_load.any(), None
     if not carried:
         settings = run.settings
         if settings.solver == "auto":
             settings = replace(settings, solver=answer.solution.solver)
         reverse = solved_once(run, cone_solver(answer.form.reversed_program, settings, run.log), "reverse", -1.0)
-        carried = _carried(run, answer.form, reverse)
+        below = _carried(run, answer.form, reverse)
+        carried = below is not None
     if not carried:
         certificate = proved_certificate(run, answer.form, reverse)
         if certificate is not None:
@@ -144,8 +152,18 @@ def _with_dead_load(run: AssociativeRun, answer: ProvedAnswer, *, proved: bool) 
     if answer.solution.status is Status.UNBOUNDED and reverse.status is Status.UNBOUNDED and not proved:
         return _locked_both_ways(run, run.settings)
     if answer.solution.status is Status.UNBOUNDED:
-        return _without_state(run, Status.UNBOUNDED, LOCKED)
-    return _with_load_factor(run, answer)
+        return replace(_without_state(run, Status.UNBOUNDED, LOCKED), lock=_lock(run, answer))
+    return replace(_with_load_factor(run, answer), below=below)
+
+
+def _lock(run: AssociativeRun, answer: ProvedAnswer) -> FloatArray | None:
+    """Forces of the ray that proves that there is no mechanism, with conditions on interfaces; None without."""
+    if run.program.conditions is None:
+        return None
+    alone = replace(run.program, dead_load=np.zeros_like(run.program.dead_load))
+    form, ray = answer.form, answer.solution
+    repaired = repaired_forces(alone, form.forces(ray), form.load_factor(ray), form.slacks(ray))
+    return None if repaired is None or not repaired[1] > 0.0 else repaired[0] / repaired[1]
 
 
 def _locked_both_ways(run: AssociativeRun, settings: SolverSettings) -> AssociativeResult:
@@ -186,18 +204,20 @@ def _with_load_factor(run: AssociativeRun, answer: ProvedAnswer) -> AssociativeR
     return AssociativeResult(status, state, None, reason, tuple(run.records), solver, asked, reason)
 
 
-def _carried(run: AssociativeRun, form: AssociativeForm, reverse: ConeSolution) -> bool:
-    """Whether the forces prove that there is equilibrium at a load factor of zero or below."""
+def _carried(run: AssociativeRun, form: AssociativeForm, reverse: ConeSolution) -> tuple[FloatArray, float] | None:
+    """Forces that prove that there is equilibrium at a load factor of zero or below, and that; None without."""
     forces, factor = form.forces(reverse), form.load_factor(reverse)
     if not np.isfinite(forces).all() or not np.isfinite(factor):
-        return False
-    return _carries(run, forces, factor, form.slacks(reverse))
+        return None
+    return _carrying(run, forces, factor, form.slacks(reverse))
 
 
-def _carries(run: AssociativeRun, forces: FloatArray, factor: float, slacks: FloatArray | None = None) -> bool:
-    """Whether forces in balance with about that load factor can be repaired to carry one of zero or below."""
+def _carrying(
+    run: AssociativeRun, forces: FloatArray, factor: float, slacks: FloatArray | None = None
+) -> tuple[FloatArray, float] | None:
+    """Forces in balance with about that load factor repaired to carry one of zero or below; None where they do not."""
     repaired = repaired_forces(run.program, forces, factor, slacks)
-    return repaired is not None and repaired[1] <= STANDS_MARGIN * run.size
+    return repaired if repaired is not None and repaired[1] <= STANDS_MARGIN * run.size else None
 
 
 def _fall_of_what_nothing_touches(program: Program) -> FloatArray:

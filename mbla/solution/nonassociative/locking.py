@@ -20,6 +20,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
+import scipy.sparse as sp
 
 from mbla.arrays import FloatArray
 from mbla.program.program import Program
@@ -43,13 +44,13 @@ def locking_forces(parts: Sequence[Program], settings: SolverSettings, log: Log)
 
     None where none were found that can be proved: the live load brings collapse, or the structure locks by a hair.
     """
-    loaded = [program for program in parts if np.any(program.live_load)]
+    loaded = [_lasting(program) for program in parts if np.any(program.live_load)]
     for share in FRICTIONS:
         found = [_least_forces(program, share, settings, log) for program in loaded]
         forces = [program.lift.contact_forces(x) for program, x in zip(loaded, found, strict=True) if x is not None]
         if not forces or len(forces) < len(loaded):
             continue
-        whole = loaded[0].full
+        whole = _lasting(loaded[0].full)
         exact = _in_balance(guided_program(whole, whole.facts.allowed), np.sum(forces, axis=0))
         if exact is not None:
             return whole.scaling.forces(exact) / whole.scaling.live
@@ -63,6 +64,18 @@ def locks_at_dilatancy(program: Program, settings: SolverSettings, log: Log) -> 
     """
     flat = replace(program, limits=replace(program.limits, friction=program.limits.dilatancy))
     return any(_least_forces(flat, share, settings, log) is not None for share in FRICTIONS)
+
+
+def _lasting(program: Program) -> Program:
+    """The program without conditions on interfaces, those that crush as open as points that do."""
+    conditions, limits = program.conditions, program.limits
+    if conditions is None:
+        return program
+    crush = np.diff(sp.csc_array(conditions.motions[1]).indptr) > 0
+    points = np.unique(sp.csc_array(conditions.velocities)[:, np.flatnonzero(crush)].indices // program.components)
+    compression = limits.compression.copy()
+    compression[points] = 0.0
+    return replace(program, limits=replace(limits, compression=compression), conditions=None)
 
 
 def _least_forces(program: Program, share: float, settings: SolverSettings, log: Log) -> FloatArray | None:

@@ -60,7 +60,7 @@ def test_without_a_proof_that_the_dead_load_is_carried_there_is_no_load_factor(
     program = sliding()
     without = answer(program, status)
     monkeypatch.setattr(associative, "solved_once", lambda *arguments: without)
-    monkeypatch.setattr(associative, "_carried", lambda *arguments: False)
+    monkeypatch.setattr(associative, "_carried", lambda *arguments: None)
     monkeypatch.setattr(associative, "proved_certificate", lambda *arguments: None)
     result = result_of(program)
     assert result.status is claimed
@@ -74,7 +74,7 @@ def test_forces_that_are_no_numbers_carry_nothing() -> None:
     form, run = associative_form(program), AssociativeRun(program, SETTINGS, lambda record: None, 1, [])
     right = answer(program, Status.SOLVED)
     none = replace(right, z=np.full_like(right.z, np.nan))
-    assert not associative._carried(run, form, none)
+    assert associative._carried(run, form, none) is None
 
 
 @pytest.mark.parametrize(("text", "status"), [(HELD, Status.UNBOUNDED), (HANGING, Status.NO_EQUILIBRIUM)])
