@@ -32,6 +32,7 @@ from mbla.solution.law.elastic_joints import ElasticJoints
 from mbla.solution.law.interfaces import NONE, Interfaces
 from mbla.solution.nonassociative.moving_part import moving_part
 from mbla.solution.solution import Status
+from mbla.solution.thresholds import NEAR_ZERO
 
 MOST_STEPS_OF_PART = 2000
 """Steps of a path that follows what moves alone, each of which costs less: a wall of 60 courses takes some 1,200."""
@@ -108,10 +109,14 @@ class PathOfPart:
     def gains(self, share: float, above: float) -> bool:
         """Whether more than a share was gained over the last half of a path that ends before the load does.
 
+        Of a load factor that is next to nothing no share counts.
+
         above : load factor that it cannot exceed; from there it rises no more
         """
-        below = self.load_factor < (1.0 - RISES) * above
-        return self.stop is Stop.FAR and self.gain > share and below
+        if self.rest is None or self.stop is not Stop.FAR or not self.gain > share:
+            return False
+        nothing = NEAR_ZERO * self.rest.joints.program.dead_over_live
+        return nothing < self.load_factor < (1.0 - RISES) * above
 
     def _from_rest(self, of_path: float | None) -> float:
         return math.nan if of_path is None or self.rest is None else self.rest.begins + of_path
