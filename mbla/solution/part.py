@@ -101,8 +101,7 @@ def _at_zero(result: AssociativeResult) -> tuple[FloatArray, float] | None:
     state, below = result.state, result.below
     if state is None or below is None or not state.load_factor > below[1]:
         return None
-    share = -below[1] / (state.load_factor - below[1])
-    return (1.0 - share) * below[0] + share * state.forces, 0.0
+    return state.forces_between(below, 0.0), 0.0
 
 
 def _locked_by_dilatancy(result: PartResult, settings: SolverSettings, log: Log, interfaces: Interfaces) -> PartResult:

@@ -113,8 +113,7 @@ def _between(
         return LawState(below[0], np.zeros_like(program.dead_load), load_factor, 0.0)
     if collapse is None or not below[1] <= load_factor <= collapse.load_factor:
         return None
-    share = (load_factor - below[1]) / (collapse.load_factor - below[1])
-    return _without_motion(collapse, (1.0 - share) * below[0] + share * collapse.forces, load_factor)
+    return _without_motion(collapse, collapse.forces_between(below, load_factor), load_factor)
 
 
 def _resting(
@@ -133,8 +132,7 @@ def _resting(
         lower = load_factor - BELOW * abs(load_factor)
         below = at_rest(program, lower, settings, log, interfaces)
         if below is not None:
-            share = (load_factor - lower) / (collapse.load_factor - lower)
-            return _without_motion(collapse, (1.0 - share) * below.forces + share * collapse.forces, load_factor)
+            return _without_motion(collapse, collapse.forces_between((below.forces, lower), load_factor), load_factor)
     return at_rest(program, load_factor, settings, log, interfaces)
 
 

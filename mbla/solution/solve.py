@@ -216,11 +216,11 @@ def _combined(stage: _Stage, results: Sequence[PartResult]) -> Solution:
     for status in FAILED:
         for part, result in enumerate(results):
             if result.associative.status is status:
-                return _without_load_factor(stage, part, result)
+                return _without_load_factor(stage, results, part)
     bounded = [part for part, result in enumerate(results) if _load_factor(result) < np.inf]
     if not bounded:
         loaded = [part for part, result in enumerate(results) if result.loaded]
-        return _without_load_factor(stage, loaded[0], results[loaded[0]], results)
+        return _without_load_factor(stage, results, loaded[0])
     first = min(bounded, key=lambda part: _load_factor(results[part]))
     first_associative = min(range(len(results)), key=lambda part: _factor(results[part].associative.state))
     return _with_load_factor(stage, results, first, first_associative)
@@ -245,13 +245,14 @@ def _known_lock(stage: _Stage, results: Sequence[PartResult]) -> FloatArray | No
     return scaling.forces(np.sum(forces, axis=0)) / scaling.live
 
 
-def _without_load_factor(stage: _Stage, part: int, result: PartResult, results: Sequence[PartResult] = ()) -> Solution:
-    associative, lock = result.associative, None
+def _without_load_factor(stage: _Stage, results: Sequence[PartResult], part: int) -> Solution:
+    result, lock = results[part], None
+    associative = result.associative
     status, reason = associative.status, associative.reason
     if status is Status.UNBOUNDED and result.sequence is not None:  # nothing is known by the flow rule of the analysis
         status, reason = result.sequence.status, result.sequence.reason
     if status is Status.UNBOUNDED:
-        lock = _known_lock(stage, results) if results else None
+        lock = _known_lock(stage, results)
         lock = locking_forces(stage.parts, stage.settings, stage.log) if lock is None else lock
         if lock is None:
             status, reason = Status.NOT_VERIFIED, LOCK_NOT_PROVED

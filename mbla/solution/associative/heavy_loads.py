@@ -52,7 +52,7 @@ def solved_under_heavy_loads(
     state = replace(
         state, forces=unit * state.forces, load_factor=unit * state.load_factor, motions=unit * state.motions
     )
-    return replace(again, state=state, programs=programs, stress_free=result.stress_free)
+    return replace(again, state=state, programs=programs, stress_free=result.stress_free, below=result.below)
 
 
 def _in_unit(program: Program, unit: float) -> Program:

@@ -89,10 +89,13 @@ def solve_until_proved(run: AssociativeRun, form: AssociativeForm) -> ProvedAnsw
         sharpest, other = replace(sharpest, solver=own), replace(other, solver=other_method(own))
     # of strengths beyond numbers one method may say that they bear everything
     unsure = run.program.conditions is not None and best.solution.status is Status.UNBOUNDED
+    tried = set[float]()
     for power in POWERS:
-        if unsure or _is_open(run, best):
-            best = better(best, _answer(run, _in_units_of(run, first) or form, _size(run, best) ** power, other))
+        unit = _size(run, best) ** power
+        if unit not in tried and (unsure or _is_open(run, best)):
+            best = better(best, _answer(run, _in_units_of(run, first) or form, unit, other))
             unsure = False
+        tried.add(unit)
     if _is_open(run, best):
         best = better(best, _answer(run, form, 1.0, sharpest))
     return best

@@ -151,7 +151,7 @@ def solved_peak(
         if blocked >= 2:
             sigma, blocked = again.pop(0) * peak.sigma, 0
             state = centred(joints, state, sigma, 0.95)
-    if not best.is_solved:
+    if not best.is_solved and best.state is not peak.state:
         best, more = _by_newton(best, force)
         spent += more
     return best, spent

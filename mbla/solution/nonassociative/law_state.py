@@ -56,6 +56,11 @@ class LawState:
     motions: FloatArray | None = None
     history: StepHistory | None = None
 
+    def forces_between(self, below: tuple[FloatArray, float], load_factor: float) -> FloatArray:
+        """Forces at a load factor between those of this state and others, (n_points, components), at a lower one."""
+        share = (load_factor - below[1]) / (self.load_factor - below[1])
+        return (1.0 - share) * below[0] + share * self.forces
+
 
 @dataclass(frozen=True)
 class SequenceResult:
