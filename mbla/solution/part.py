@@ -1,8 +1,4 @@
-"""Which method solves one part of a structure, whose blocks can interact: by flow rule, scheme and what is asked for.
-
-Associative first; where another flow rule is asked for, the path of elastic joints or the scheme that the deck names;
-then, in addition to the load factor, states of lower ones and the standing, neither of which changes it.
-"""
+"""The steps by which one part of a structure, whose blocks can interact, is solved (:mod:`mbla.solution.solve`)."""
 
 from __future__ import annotations
 
@@ -17,7 +13,7 @@ from mbla.solution.associative.certificate import steepest_fall
 from mbla.solution.associative.heavy_loads import solved_under_heavy_loads
 from mbla.solution.associative.solve_associative import AssociativeResult, solve_associative
 from mbla.solution.cone_solvers.cone_solution import Log
-from mbla.solution.law.interfaces import NONE, Interfaces
+from mbla.solution.law.interfaces import Interfaces
 from mbla.solution.nonassociative.alternation import no_mechanism
 from mbla.solution.nonassociative.least_found import least_found, looks_lower
 from mbla.solution.nonassociative.locking import locks_at_dilatancy
@@ -40,39 +36,23 @@ SEARCH_BROKE_DOWN = Message(
 )
 
 
-def solve_part(
-    program: Program, settings: SolverSettings, log: Log, interfaces: Interfaces = NONE, beside: Interfaces = NONE
-) -> PartResult:
-    """The part by the flow rule of the analysis, with everything that is requested in addition to its load factor.
-
-    interfaces : of the model that have a law of their own in the path of elastic joints
-    beside     : those in a second path, with torsion
-
-    Raises
-    ------
-    numpy.linalg.LinAlgError where a system of equations on the way to the load factor is singular
-    """
-    result = _by_flow_rule(program, settings, log, interfaces)
-    if result.associative.certificate is not None:  # of what does not stand, only that moves
-        fall = steepest_fall(program, settings, log)
-        if fall is not None:
-            result = replace(result, associative=replace(result.associative, certificate=fall))
-    if looks_lower(program, settings, interfaces):
-        result = _with_least(result, settings, log)
-    if result.sequence is not None and result.state is not None and result.status in WITH_VALUE:
-        torsion = solve_with_torsion(program, result.associative, settings, log, beside)
-        result = replace(result, torsion=torsion)
-    return _with_standing(result) if settings.standing else result
+def associative_part(program: Program, settings: SolverSettings, log: Log, interfaces: Interfaces) -> PartResult:
+    """By associative flow, and whether the dead load is carried; of what does not stand the motion that falls most."""
+    loaded = bool(np.any(program.live_load))
+    if loaded:
+        found = solve_associative(program, settings, log, stress_free=settings.standing)
+        found = solved_under_heavy_loads(program, found, interfaces, settings, log)
+    else:
+        found = _unloaded(program, settings, log)
+    fall = None if found.certificate is None else steepest_fall(program, settings, log)
+    return PartResult(program, found if fall is None else replace(found, certificate=fall), None, loaded=loaded)
 
 
-def _by_flow_rule(program: Program, settings: SolverSettings, log: Log, interfaces: Interfaces) -> PartResult:
-    if not np.any(program.live_load):
-        return _unloaded_part(program, settings, log)
-    associative = solve_associative(program, settings, log, stress_free=settings.standing)
-    associative = solved_under_heavy_loads(program, associative, interfaces, settings, log)
-    result = PartResult(program, associative, None, loaded=True)
-    flow_rule = settings.analysis.flow_rule
-    if flow_rule == "associative" or not (associative.state or associative.status is Status.UNBOUNDED):
+def with_flow_rule(result: PartResult, settings: SolverSettings, log: Log, interfaces: Interfaces) -> PartResult:
+    """With the state by the flow rule of the analysis, where that is another one and associative flow has an answer."""
+    program, associative = result.program, result.associative
+    answered = associative.state is not None or associative.status is Status.UNBOUNDED
+    if settings.analysis.flow_rule == "associative" or not result.loaded or not answered:
         return result
     if program.n_points == 0:  # blocks held by guides alone: no joint that could flow by another rule
         return result
@@ -83,7 +63,7 @@ def _by_flow_rule(program: Program, settings: SolverSettings, log: Log, interfac
     return replace(result, sequence=sequence, remarks=remarks)
 
 
-def _unloaded_part(program: Program, settings: SolverSettings, log: Log) -> PartResult:
+def _unloaded(program: Program, settings: SolverSettings, log: Log) -> AssociativeResult:
     """A part without live load: whether it carries its dead load shows when that is taken away step by step."""
     result = AssociativeResult(Status.UNBOUNDED, None, None, "", ())
     if np.any(program.dead_load):
@@ -93,7 +73,7 @@ def _unloaded_part(program: Program, settings: SolverSettings, log: Log) -> Part
         result = replace(
             result, status=Status.UNBOUNDED, state=None, reason="no live load acts on it", below=_at_zero(result)
         )
-    return PartResult(program, result, None, loaded=False)
+    return result
 
 
 def _at_zero(result: AssociativeResult) -> tuple[FloatArray, float] | None:
@@ -119,10 +99,10 @@ def _locked_by_dilatancy(result: PartResult, settings: SolverSettings, log: Log,
     return replace(result, associative=replace(associative, reason=""), sequence=sequence)
 
 
-def _with_least(result: PartResult, settings: SolverSettings, log: Log) -> PartResult:
-    """With the state of the least load factor that a search from the answer finds."""
-    program, sequence, state = result.program, result.sequence, result.state
-    if sequence is None or state is None or result.status not in WITH_VALUE:
+def with_least(result: PartResult, settings: SolverSettings, log: Log, interfaces: Interfaces) -> PartResult:
+    """With the state of the least load factor that a search from the answer finds, where one is asked for."""
+    program, state = result.program, result.state
+    if state is None or not _has_figure(result) or not looks_lower(program, settings, interfaces):
         return result
     slope, records = slope_of(program, settings.analysis.flow_rule), list[ProgramRecord](result.programs)
     known = len(records)
@@ -133,9 +113,24 @@ def _with_least(result: PartResult, settings: SolverSettings, log: Log) -> PartR
     return replace(result, least=least, more=(*result.more, *records[known:]))
 
 
-def _with_standing(result: PartResult) -> PartResult:
+def with_torsion(result: PartResult, settings: SolverSettings, log: Log, beside: Interfaces) -> PartResult:
+    """With the load at which it starts to move where interfaces twist as under uniform pressure."""
+    if not _has_figure(result):
+        return result
+    return replace(result, torsion=solve_with_torsion(result.program, result.associative, settings, log, beside))
+
+
+def with_standing(result: PartResult, settings: SolverSettings) -> PartResult:
+    """With the assessment of the dead load alone, where that is asked for."""
+    if not settings.standing:
+        return result
     program, associative = result.program, result.associative
     if associative.certificate is not None:
         return replace(result, standing=standing_without_equilibrium(program, associative.certificate))
     decided = associative.state is not None or associative.status is Status.UNBOUNDED
     return replace(result, standing=assess_dead_load(program, True if decided else None, associative.stress_free))
+
+
+def _has_figure(result: PartResult) -> bool:
+    """Whether another flow rule than the associative one gave a load factor."""
+    return result.sequence is not None and result.state is not None and result.status in WITH_VALUE

@@ -11,10 +11,11 @@ import pytest
 from mbla.solution import part
 from mbla.solution.associative.solve_associative import AssociativeResult
 from mbla.solution.nonassociative.schemes import NOT_PUBLISHED, solve_nonassociative
-from mbla.solution.part import SEARCH_BROKE_DOWN, solve_part
+from mbla.solution.part import SEARCH_BROKE_DOWN
 from mbla.solution.part_result import PartResult
 from mbla.solution.settings import solver_settings
 from mbla.solution.solution import Status
+from mbla.solution.solve import solve_part
 from tests.line import BLOCK, WALL, line_of, solution_of
 from tests.reached import BELOW, reaches
 from tests.solution.nonassociative.structures import in_the_groove

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from importlib import import_module
-
 import numpy as np
 import pytest
 
+from mbla.solution import deciding_part
 from mbla.solution.associative import repair
 from mbla.solution.associative.condition_cones import ConditionCones
 from mbla.solution.associative.repair import repaired_forces
@@ -20,7 +19,6 @@ from tests.line import BLOCK, line_of, solution_of
 from tests.solution.by_hand import claim
 from tests.solution.failing_solver import said
 
-solve = import_module("mbla.solution.solve")  # the package has the function of that name
 SETTINGS = SolverSettings(1e-8)
 PRESSED = "load_cases.push.live=[{acceleration: [0, 0, -1]}]"
 
@@ -58,10 +56,10 @@ def test_forces_whose_correction_is_no_number_are_not_repaired(monkeypatch: pyte
 def test_a_lock_without_forces_that_prove_it_is_not_verified(monkeypatch: pytest.MonkeyPatch) -> None:
     line = line_of(BLOCK, PRESSED)
     assert solution_of(line).status is Status.UNBOUNDED
-    monkeypatch.setattr(solve, "locking_forces", lambda *arguments: None)
+    monkeypatch.setattr(deciding_part, "locking_forces", lambda *arguments: None)
     solution = solution_of(line)
     assert solution.status is Status.NOT_VERIFIED
-    assert solution.reason == solve.LOCK_NOT_PROVED
+    assert solution.reason == deciding_part.LOCK_NOT_PROVED
     checks = verify(line.assembly, line.load_case, claim(None, Status.UNBOUNDED))
     assert checks.failures == ("no forces are given that carry every multiple of the live load",)
 
@@ -73,7 +71,7 @@ def test_ranges_of_forces_are_left_out_of_parts_of_which_nothing_is_known(monkey
     known = solution_of(line).force_ranges
     assert known is not None
     assert np.isfinite(known).all()
-    monkeypatch.setattr(solve, "at_rest", lambda *arguments: None)
+    monkeypatch.setattr(deciding_part, "at_rest", lambda *arguments: None)
     ranges = solution_of(line).force_ranges
     assert ranges is not None
     others = (line.contacts.bodies == 1).any(axis=1)

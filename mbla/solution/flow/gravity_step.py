@@ -15,6 +15,7 @@ A support that gives way later is held, f_L·u = 0, and λ is its reaction: from
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import partial
 
@@ -30,8 +31,9 @@ from mbla.solution.law.newton import by_newton
 from mbla.solution.nonassociative.imbalance import imbalance
 from mbla.solution.nonassociative.law_state import LawState
 
-NEWTON = 20
-"""Iterations of Newton's method at most."""
+NEWTON, NEAR = 20, (1e-3, 1e-5, 1e-8)
+"""Iterations of Newton's method at most, and products over n₀² with whose states it begins, where it came to nothing
+from joints without stress."""
 
 STEPS = 100
 """At most; 10 to 25 are usual where a dead load is carried."""
@@ -112,18 +114,20 @@ def gravity_step(joints: ElasticJoints, least_force: float = 0.0, gaps: FloatArr
         return _at_rest(step, exact, force, spent)
     for share in HELD:
         step = JointStep(joints, fresh, 1.0, driven=held, work=0.0, held=share * joints.matrix.size)
-        state, settled, more = _solved(step, force)
+        weaker = replace(step, held=WEAKER * step.held)
+        state, settled, more, exact = _solved(step, force, exactly=None if joints.laws else partial(_exactly, weaker))
         spent += more
+        if exact is not None:
+            return _at_rest(weaker, exact, force, spent)
         if settled:
             break
     carried = False
     if settled:
-        weaker = replace(step, held=WEAKER * step.held)
-        close, fits, more = _solved(weaker, force, state)
+        close, fits, more, _ = _solved(weaker, force, state)
         spent += more
         if not fits:
             lighter = replace(step, held=LIGHTER * step.held)
-            there, fits, more = _solved(lighter, force, state)
+            there, fits, more, _ = _solved(lighter, force, state)
             settled, spent = fits and _stays(step, state, lighter, there), spent + more
         elif not _stays(step, state, weaker, close):
             least = WEAKER * share * force**2  # with larger products springs hold joints open that nothing has opened
@@ -142,10 +146,14 @@ def _at_rest(step: JointStep, state: StepState, force: float, spent: int) -> Gra
     return Gravity(state, replace(memory, shear=state.shear), force, True, True, spent, step)
 
 
-def _exactly(step: JointStep) -> tuple[StepState | None, int]:
-    """The state by Newton's method, None where that comes to none that carries the dead load; factorisations."""
+def _exactly(step: JointStep, near: StepState | None = None) -> tuple[StepState | None, int]:
+    """The state by Newton's method, None where that comes to none that carries the dead load; factorisations.
+
+    near : a state to begin from; else joints without stress
+    """
     joints = step.joints
-    found = by_newton(step, np.zeros(len(joints.program.dead_load)), 0.0, most=NEWTON)
+    u, factor = (np.zeros(len(joints.program.dead_load)), 0.0) if near is None else (near.u, near.factor)
+    found = by_newton(step, u, factor, most=NEWTON)
     state = found.state_of(step)
     solved = found.is_solved and _is_carried(joints, state)
     return state if solved else None, found.iterations
@@ -177,14 +185,20 @@ def _is_carried(joints: ElasticJoints, state: StepState) -> bool:
     return imbalance(joints.program, LawState(state.forces, state.u, state.factor, 0.0)) <= CARRIED
 
 
-def _solved(step: JointStep, force: float, near: StepState | None = None) -> tuple[StepState, bool, int]:
-    """The state of the step, whether it solves it, and factorisations.
+def _solved(
+    step: JointStep,
+    force: float,
+    near: StepState | None = None,
+    exactly: Callable[[StepState], tuple[StepState | None, int]] | None = None,
+) -> tuple[StepState, bool, int, StepState | None]:
+    """The state of the step, whether it solves it, factorisations, and the state that Newton's method made of it.
 
-    near : a state that is near; else all joints are pressed alike
+    near    : a state that is near; else all joints are pressed alike
+    exactly : Newton's method from a state
     """
     sigma, spent, blocked, fall = force**2, 0, 0, FALL
     least = LEAST * force**2
-    state = near
+    state, nearer = near, list(NEAR)
     if state is None:
         state = _start(step.joints, force, sigma)
     elif step.joints.laws:
@@ -197,9 +211,14 @@ def _solved(step: JointStep, force: float, near: StepState | None = None) -> tup
         even = float(residual.products.normal.max(initial=0.0)) < EVEN * sigma
         settled = even and sigma <= least and residual.unbalanced < BALANCED
         settled = settled and residual.incompatible(step.joints, state) < COMPATIBLE
-        found = None if settled or spent == STEPS else direction_of(step, state, residual, sigma)
+        if exactly is not None and nearer and even and sigma <= nearer[0] * force**2:
+            exact, more = exactly(state)
+            spent, nearer = spent + more, [each for each in nearer if each * force**2 < sigma]
+            if exact is not None:
+                return state, True, spent, exact
+        found = None if settled or spent >= STEPS else direction_of(step, state, residual, sigma)
         if found is None:
-            return state, settled, spent
+            return state, settled, spent, None
         direction, reach = found
         spent, blocked = spent + 1, blocked + 1 if reach < SHORT else 0
         state = state.plus(direction, length_of(reach))

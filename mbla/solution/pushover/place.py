@@ -121,7 +121,7 @@ def place_after(step: PoseStep, found: Smoothed, before: Place) -> Place:
 def row_after(step: PoseStep, found: Found, before: Place) -> Row:
     """The row of a step that is solved."""
     joints, pose = step.joints, found.at.pose
-    end = np.vstack([found.normal[None], found.shear])
+    end = np.vstack([found.forces.normal[None], found.forces.shear])
     factor = joints.full.scaling.load_factor(found.factor)
     ties = ties_after(before, pose, joints.twists(found.u))
     energy = before.energy.after(step, found.at, end, found.u, factor)

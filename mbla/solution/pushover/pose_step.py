@@ -24,10 +24,11 @@ from mbla.arrays import FloatArray
 from mbla.model.pose import paths_of
 from mbla.solution.flow.peak_step import centred
 from mbla.solution.law.elastic_joints import Memory, StepState, lengths, within
+from mbla.solution.law.exact_law import forces_by_law
 from mbla.solution.law.joint_equations import JointStep, residual_of
 from mbla.solution.law.joint_step import aimed_direction, direction_of, length_of
+from mbla.solution.law.return_map import JointForces, joint_forces, joint_tangents
 from mbla.solution.pushover.geometric_stiffness import geometric
-from mbla.solution.pushover.law_at_pose import law
 from mbla.solution.pushover.moved_joints import History, JointsAt, MovedJoints
 from mbla.solution.pushover.step_states import below_strength, gone_on, on_central_path
 from mbla.solution.thresholds import SOLVED_RESIDUAL
@@ -87,8 +88,7 @@ class Found:
     """
 
     at: JointsAt
-    normal: FloatArray
-    shear: FloatArray
+    forces: JointForces
     u: FloatArray
     factor: float
     work: float
@@ -267,13 +267,11 @@ class PoseStep:
                 return (state, number) if self._size(state.u) < FARTHEST else None
         return None
 
-    def _measured(
-        self, at: JointsAt, u: FloatArray, factor: float, done: float
-    ) -> tuple[Found, FloatArray, FloatArray]:
-        """What a pose leaves without balance, with C."""
-        normal, shear, tangent = law(at, self.memory(at), self.joints.length)
-        program = at.joints.program
-        left = at.joints.carried(normal, shear) + program.dead_load + factor * program.live_load
+    def _measured(self, at: JointsAt, u: FloatArray, factor: float, done: float) -> tuple[Found, FloatArray]:
+        """What a pose leaves without balance."""
+        memory, program = self.memory(at), at.joints.program
+        forces = joint_forces(at.joints, np.vstack([memory.normal, memory.shear]))
+        left = at.joints.carried(forces.normal, forces.shear) + program.dead_load + factor * program.live_load
         left = left - self._held * u
         off = float(np.abs(left).max(initial=0.0))
         missing = 0.0
@@ -282,21 +280,27 @@ class PoseStep:
             missing = BALANCED * abs(self.work - done) / (WORKS * size)
         measure = max(off, missing)
         measure = measure if np.isfinite(measure) else np.inf
-        return Found(at, normal, shear, u, factor, done, off, measure), left, tangent
+        return Found(at, forces, u, factor, done, off, measure), left
+
+    def _tangent(self, at: JointsAt, forces: JointForces) -> FloatArray:
+        """C = −∂forces/∂offsets, (n_points, components, components)."""
+        joints = at.joints
+        stiffness = np.vstack([joints.normal, *[joints.shear] * (joints.program.components - 1)]) * self.joints.length
+        return joint_tangents(joints, forces) * stiffness.T[:, None, :]
 
     def _newton(self, at: JointsAt, u: FloatArray, factor: float, done: float) -> Found | None:
         """The best that Newton's method comes to from a pose; None where there are no numbers."""
         best: Found | None = None
         for number in range(NEWTON + 1):
-            found, left, tangent = self._measured(at, u, factor, done)
+            found, left = self._measured(at, u, factor, done)
             if not np.isfinite(found.measure):
                 return best
             worse = best is not None and number >= 2 and found.measure > WORSE * best.measure
             best = found if best is None or found.measure < best.measure else best
             if best.solved or worse or number == NEWTON:
                 return best
-            further = geometric(self.joints, at, found.normal, found.shear)
-            fixed = not self.driven
+            further = geometric(self.joints, at, found.forces.normal, found.forces.shear)
+            tangent, fixed = self._tangent(at, found.forces), not self.driven
             for firm in FIRM:
                 springs = firm * self.joints.length * self.joints.size + self._held
                 stiffness = at.joints.matrix.factorized(tangent, springs, fixed_load=fixed, further=further)
@@ -345,12 +349,8 @@ class PoseStep:
 
     def _left(self, step: JointStep, state: StepState) -> float:
         """Largest unbalanced force of the law itself for the motion of a state."""
-        joints, limits = step.joints, step.joints.program.limits
-        v = joints.velocities(state.u)
-        normal = np.clip(step.memory.normal - v[0] / step.normal_compliance, -limits.tension, limits.compression)
-        shear = within(step.memory.shear - v[1:] / step.shear_compliance, joints.limit(normal))
-        program = joints.program
-        left = joints.carried(normal, shear) + program.dead_load + state.factor * program.live_load
+        joints, program, forces = step.joints, step.joints.program, forces_by_law(step, state.u)
+        left = joints.carried(forces.normal, forces.shear) + program.dead_load + state.factor * program.live_load
         return float(np.abs(left - step.held * state.u).max(initial=0.0))
 
 

@@ -208,7 +208,7 @@ class Way:
         self.spent += step.spent
         if found is None or not found.solved:
             return None
-        after, factor = step.after(found.at, found.normal), joints.full.scaling.load_factor(found.factor)
+        after, factor = step.after(found.at, found.forces.normal), joints.full.scaling.load_factor(found.factor)
         return Place(found.at, joints, after, None, factor, np.zeros((len(none), 6)), 0.0, ties, Energy())
 
     def displacement(self, pose: Pose) -> float:
