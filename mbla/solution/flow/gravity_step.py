@@ -109,7 +109,7 @@ def gravity_step(joints: ElasticJoints, least_force: float = 0.0, gaps: FloatArr
     held = program.facts.settles and bool(np.any(program.live_load))
     fresh = Memory.stress_free(joints, gaps)
     step = JointStep(joints, fresh, 1.0, driven=held, work=0.0, held=WEAKER * HELD[0] * joints.matrix.size)
-    exact, spent = (None, 0) if joints.laws else _exactly(step)
+    exact, spent = _of_points(joints, least_force, gaps) if joints.laws else _exactly(step)
     if exact is not None:
         return _at_rest(step, exact, force, spent)
     for share in HELD:
@@ -138,6 +138,20 @@ def gravity_step(joints: ElasticJoints, least_force: float = 0.0, gaps: FloatArr
             settled = carried = sharp.is_solved and _is_carried(joints, sharp.state)
             state, step = (sharp.state, weaker) if carried else (state, step)
     return replace(_at_rest(step, state, force, spent), settled=settled, carried=carried)
+
+
+def _of_points(joints: ElasticJoints, least_force: float, gaps: FloatArray | float) -> tuple[StepState | None, int]:
+    """The state of the points alone where it keeps within the laws of the interfaces, so that none of them moves; None
+    where it does not; factorisations.
+    """
+    found = gravity_step(joints.without_laws, least_force, gaps)
+    state = found.state
+    laws = [rows.at_rest(state.normal, state.shear) for rows in joints.rows] if found.carried else [None]
+    within = tuple(one for of_rows in laws if of_rows is not None for one in of_rows)
+    if len(within) < len(joints.laws):
+        return None, found.steps
+    still = np.zeros(len(joints.program.dead_load) - len(state.u))
+    return replace(state, u=np.append(state.u, still), interfaces=within), found.steps
 
 
 def _at_rest(step: JointStep, state: StepState, force: float, spent: int) -> Gravity:

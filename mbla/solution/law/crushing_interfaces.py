@@ -56,6 +56,12 @@ class Crushing:
         force = np.minimum(self.pressed @ normal, 0.5 * self.pieces.strength - self.pieces.tension)
         return np.asarray(force * self.pieces.centre)
 
+    def share_at_rest(self, normal: FloatArray) -> FloatArray | None:
+        """All of it where each interface is one piece."""
+        owner = self.pieces.owner
+        whole = len(np.unique(owner)) == len(owner)
+        return np.ones((self.pieces.centre.shape[0], len(owner))) if whole else None
+
     def values(self, resultants: FloatArray, normal: FloatArray) -> FloatArray:
         """g, (k, m)."""
         (q, n, p), (first, second, lead) = self._forms(resultants)

@@ -94,6 +94,15 @@ class ElasticJoints:
         matrix = replace(self.matrix, program=self.matrix.program.without_live_load())
         return replace(self, program=self.program.without_live_load(), matrix=matrix)
 
+    @property
+    def without_laws(self) -> ElasticJoints:
+        """The same joints, of interfaces without a motion of their own."""
+        n = len(self.program.dead_load) - sum(rows.resultants.shape[0] for rows in self.rows)
+        matrix = sp.csr_array(self.program.equilibrium_matrix[:n])
+        loads = self.program.dead_load[:n], self.program.live_load[:n]
+        program = replace(self.program, equilibrium_matrix=matrix, dead_load=loads[0], live_load=loads[1])
+        return replace(self, program=program, matrix=stiffness_of(program), rows=())
+
     @cached_property
     def friction(self) -> FloatArray:
         """μ, (n_points,)."""

@@ -83,6 +83,11 @@ class Conditions(Protocol):
     def start(self, normal: FloatArray) -> FloatArray:
         """Resultants well within the bounds, (c, m), for normal forces of the points, (n_points,)."""
 
+    def share_at_rest(self, normal: FloatArray) -> FloatArray | None:
+        """Of what an interface carries at rest the share that these conditions bound, (c, m); None where several share
+        it that must be told apart.
+        """
+
     def values(self, resultants: FloatArray, normal: FloatArray) -> FloatArray:
         """g, (k, m)."""
 

@@ -11,7 +11,10 @@ import scipy.sparse as sp
 from mbla.arrays import BoolArray, FloatArray
 from mbla.program.program import Program
 from mbla.program.yield_conditions.limits import YieldLimits
-from mbla.solution.law.interface_law import InterfaceLaw
+from mbla.solution.law.interface_law import InterfaceLaw, InterfaceState
+
+ROUNDING = 1e-11
+"""Force, in mean loads of a block, up to which an interface is within its bounds."""
 
 
 @dataclass(frozen=True)
@@ -38,6 +41,26 @@ class InterfaceRows:
     def n_interfaces(self) -> int:
         """Of the model."""
         return self.motions.shape[0] // 6
+
+    def at_rest(self, normal: FloatArray, shear: FloatArray) -> tuple[InterfaceState, ...] | None:
+        """What contact forces make of each law where no interface moves; None where one is beyond its bounds, or where
+        several pieces share its resultants.
+
+        normal, shear : (n_points,), (components − 1, n_points)
+        """
+        carried = self.resultants @ np.vstack([normal[None], shear]).T.ravel()
+        states = []
+        for law in self.laws:
+            share = law.conditions.share_at_rest(normal)
+            if share is None:
+                return None
+            resultants = share * (law.rows.T @ carried).reshape(share.shape[::-1]).T
+            with np.errstate(invalid="ignore"):  # of interfaces that are open
+                values = law.conditions.values(resultants, normal)
+            if not ((values > -ROUNDING).all(axis=0) | (resultants == 0.0).all(axis=0)).all():
+                return None
+            states.append(InterfaceState(resultants, np.zeros_like(values)))
+        return tuple(states)
 
     def moved(self, velocities: FloatArray) -> FloatArray:
         """Motions of the interfaces of the model, (n_interfaces, 6), by velocities of the rows, (n_rows,)."""

@@ -97,6 +97,12 @@ class Shear:
         """No force."""
         return np.zeros((3, len(self.twisting.thetas)))
 
+    def share_at_rest(self, normal: FloatArray) -> FloatArray:
+        """S/V of shear, nothing of torsion."""
+        size, rest = rest_size(self.twisting, normal)
+        share = size / (size + rest)
+        return np.stack([share, share, np.zeros_like(share)])
+
     def values(self, resultants: FloatArray, normal: FloatArray) -> FloatArray:
         """g, (1, m)."""
         size, _ = rest_size(self.twisting, normal)
@@ -145,6 +151,12 @@ class Twist:
     def start(self, normal: FloatArray) -> FloatArray:
         """No force."""
         return np.zeros((3, len(self.twisting.thetas)))
+
+    def share_at_rest(self, normal: FloatArray) -> FloatArray:
+        """R/V of shear, and torsion."""
+        rest, size = rest_size(self.twisting, normal)
+        share = size / (size + rest)
+        return np.stack([share, share, np.ones_like(share)])
 
     def values(self, resultants: FloatArray, normal: FloatArray) -> FloatArray:
         """g, (2, m)."""
