@@ -54,7 +54,6 @@ REMARKS_THAT_WARN = frozenset(
         "pushover-drops",
         "pushover-not-done",
         "pushover-rough",
-        "force-range-not-found",
         "geometric-safety-not-done",
         "sensitivity-not-done",
         "tilt-between-not-proved",

@@ -242,7 +242,6 @@ class Solution:
     standing    : assessment of the dead load alone
     lock        : unbounded, or without an associative answer: (n_points, 3) contact forces that balance the live load
                   alone, so that any multiple is carried with associative flow
-    force_ranges: (n_interfaces, 2) least and greatest normal force at the load factor, on request
     path        : states of the path of elastic joints that was followed
     path_end, path_gain, path_last : why it ended, share of the load factor gained over its last half, and load factor
                   at its end
@@ -279,7 +278,6 @@ class Solution:
     level_lock: FloatArray | None = None
     standing: StandingResult | None = None
     lock: FloatArray | None = None
-    force_ranges: FloatArray | None = None
     path: tuple[PathPoint, ...] = ()
     path_end: str = ""
     path_gain: float = math.nan

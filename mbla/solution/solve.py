@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -14,7 +14,6 @@ from mbla.program.build import CaseProgram, crushable_interfaces
 from mbla.program.program import Program
 from mbla.program.reductions import Reduced
 from mbla.program.resultants.twisting_interfaces import TwistingInterfaces
-from mbla.solution.associative.force_ranges import force_ranges
 from mbla.solution.associative.solve_associative import AssociativeResult
 from mbla.solution.cone_solvers.cone_solution import Log
 from mbla.solution.flow.path_record import Stop
@@ -27,7 +26,7 @@ from mbla.solution.nonassociative.locking import locking_forces
 from mbla.solution.of_interfaces import of_interfaces
 from mbla.solution.part import solve_part
 from mbla.solution.part_result import PartResult
-from mbla.solution.parts import assemble_parts, at_rest
+from mbla.solution.parts import assemble_parts
 from mbla.solution.reach import stays_within, within_reach
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import IterationRecord, Mechanics, PathByStiffness, ProgramRecord, Solution, Status
@@ -76,7 +75,6 @@ class _Stage:
     log: Log
     interfaces: Interfaces = NONE
     beside: Interfaces = NONE
-    more: list[ProgramRecord] = field(default_factory=list)
 
     def mechanics(
         self,
@@ -172,7 +170,7 @@ def solve_parts(
     return replace(
         solution,
         standing=standing,
-        programs=_renumbered([*(record for result in results for record in result.programs), *stage.more]),
+        programs=_renumbered([record for result in results for record in result.programs]),
         iterations=tuple(iterations),
         seconds=time.perf_counter() - started,
         size=reduced.size,
@@ -281,9 +279,6 @@ def _with_load_factor(stage: _Stage, results: Sequence[PartResult], first: int, 
         ),
         lock=locking_forces(stage.parts, stage.settings, stage.log) if locked else None,
     )
-    if analysis.force_ranges and result.state is not None:
-        ranges, words = _force_ranges(stage, first, result.state)
-        solution, remarks = replace(solution, force_ranges=ranges), [*remarks, *words]
     if result.sequence is None:
         return replace(solution, mechanics=solution.associative, remarks=tuple(remarks))
     sequence, rule = result.sequence, analysis.flow_rule
@@ -347,23 +342,6 @@ def _tolerance_requested(results: Sequence[PartResult]) -> float | None:
     requested = [result.tolerance_requested for result in open_parts if result.status is Status.APPROXIMATE]
     known = [value for value in requested if value is not None]
     return max(known) if known and len(known) == len(open_parts) else None
-
-
-def _force_ranges(stage: _Stage, first: int, state: LawState) -> tuple[FloatArray, list[Message]]:
-    """Least and greatest normal force of every interface at the load factor, (n_interfaces, 2), and remarks."""
-    interfaces, first_point = np.unique(stage.interface_of_point, return_index=True)
-    ranges, words = np.full((len(interfaces), 2), np.nan), list[Message]()
-    scaling = stage.parts[0].scaling
-    units = scaling.force * np.broadcast_to(scaling.units, len(stage.interface_of_point))[first_point]
-    for part, program in enumerate(stage.parts):
-        own = state if part == first else at_rest(program, state.load_factor, stage.settings, stage.log)
-        if own is None:
-            continue
-        found = force_ranges(program, own, stage.interface_of_point, stage.settings, stage.log)
-        ranges = np.where(np.isnan(found.ranges), ranges, found.ranges * units[:, None])
-        stage.more.extend(found.programs)
-        words += [found.remark] if found.remark else []
-    return ranges, words
 
 
 def _solution(settings: SolverSettings, status: Status, reason: str) -> Solution:

@@ -298,7 +298,6 @@ def full_solution(solution: Solution) -> Solution:
             Standing.SELF_STRESS, 1, "the tower hangs between two walls", with_tie, mechanics.mechanism
         ),
         lock=np.arange(27.0).reshape(9, 3),
-        force_ranges=np.array([[0.0, 10.0], [5.0, np.inf]]),
         path=PATH,
         path_end="falls",
         path_gain=0.02,

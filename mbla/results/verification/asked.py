@@ -134,7 +134,6 @@ def _not_asked(deck: Deck, case: CaseResult) -> Iterator[str]:
         "a pushover": (solution.pushed, load_case.pushover is not None),
         "slopes": (solution.sensitivity or None, deck.analysis.sensitivity is not False),
         "a geometric factor of safety": (solution.geometric_safety, deck.analysis.geometric_safety),
-        "ranges of normal forces": (solution.force_ranges, settings.analysis.force_ranges),
         "a verdict on standing": (solution.standing, settings.standing),
         "a state with torsion": (solution.torsion, settings.by_torsion),
         "a least state": (solution.least, settings.by_elastic_path and settings.search > 0.0),
@@ -145,7 +144,7 @@ def _not_asked(deck: Deck, case: CaseResult) -> Iterator[str]:
 
 
 def _limits(found: Found, deck: Deck, assembly: Assembly, case: CaseResult) -> None:
-    """Standing, geometric safety and ranges of normal forces; slopes are found again."""
+    """Standing and geometric safety; slopes are found again."""
     solution, knobs = case.solution, settings_for(case.load_case, solver_settings(deck.analysis))
     claims = solution.status in (*WITH_VALUE, Status.UNBOUNDED)
     if knobs.standing and claims and solution.standing is None:
@@ -154,9 +153,6 @@ def _limits(found: Found, deck: Deck, assembly: Assembly, case: CaseResult) -> N
         against = why_no_geometric_safety(assembly.model, assembly.contacts, case.load_case, deck.analysis)
         if not against:
             _missing(found, "geometric factor of safety", case, "geometric-safety-not-done")
-    asked = knobs.analysis.force_ranges and solution.mechanics is not None and not solution.conditions_on_interfaces
-    if asked and solution.force_ranges is None:
-        found.differences.append(lacks("ranges of normal forces"))
 
 
 def _associative(found: Found, assembly: Assembly, case: CaseResult) -> None:
