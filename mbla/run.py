@@ -16,7 +16,6 @@ from mbla.model.model import LoadCase, select_cases
 from mbla.process.run_options import RunOptions as RunOptions
 from mbla.process.sharing import Memory, sharing
 from mbla.process.stopwatch import Stopwatch, timing
-from mbla.program.build import build_program
 from mbla.results.assessment.assessment import with_remarks
 from mbla.results.collapse.ties import brittle_remarks
 from mbla.results.files import OutputFolder
@@ -27,13 +26,9 @@ from mbla.results.series import position_to_push
 from mbla.results.sta import StatusFile
 from mbla.results.write import write_results
 from mbla.solution.cone_solvers.cone_solution import Log
+from mbla.solution.sequence.sequence import answered
 from mbla.solution.settings import SolverSettings, settings_for, solver_settings
 from mbla.solution.solution import IterationRecord, Solution, Status
-from mbla.solution.solve import solve
-from mbla.solution.tilt import Answer
-from mbla.solution.trials import trials_of
-from mbla.solution.verification.verify import verify
-from mbla.solution.verification.verify_points import verified_status
 
 Progress = Callable[[str, IterationRecord], None]
 T = TypeVar("T")
@@ -170,24 +165,17 @@ def solve_case(
     progress: Progress | None,
     tell: Tell[CaseResult] = unheard,
 ) -> CaseResult:
-    """Program, solution and verification of one load case: once, or of a tilting table for every angle tried.
+    """One load case solved and verified, with what is asked besides.
 
     tell : told how to make the load case as far as it has come, where it is pushed on
     """
     log = _log_of(load_case, status_file, progress)
-    trials = trials_of(assembly, load_case, settings)
-    settings = settings_for(load_case, settings)
-    for case in trials:
-        program = build_program(assembly, case, settings.analysis)
-        solution = solve(program, settings, log)
-        trials.answer = Answer(case, solution, verify(assembly, case, solution))
-    answer = trials.answer
-    status = verified_status(answer.solution, answer.checks)
-    status_file.remark(f"{load_case.name}: {status}")
-    found = CaseResult(answer.load_case, answer.solution, answer.checks, status)
+    answer = answered(assembly, load_case, settings, log)
+    status_file.remark(f"{load_case.name}: {answer.status}")
+    found = CaseResult(answer.load_case, answer.solution, answer.checks, answer.status)
     solution = answer.solution
     if load_case.pushover is not None:
-        solution = _pushed(deck, assembly, found, settings, log, tell)
+        solution = _pushed(deck, assembly, found, settings_for(load_case, settings), log, tell)
     if deck.analysis.sensitivity is not False:
         from mbla.solution.sensitivity.sensitivity import with_sensitivity  # late: few decks ask for it
 

@@ -18,9 +18,9 @@ from mbla.results.findings import found_notices, magnitude_notices
 from mbla.results.results import CaseResult, Results
 from mbla.solution.flow.path_record import Stop
 from mbla.solution.pushover.pushed import CurveEnd
+from mbla.solution.sequence.tilt_circle import angle_above, line_of
 from mbla.solution.solution import PROVED_STANDING, Checks, Mechanics, Standing, Status
 from mbla.solution.thresholds import APPROXIMATE_RESIDUAL
-from mbla.solution.tilt_circle import angle_above, line_of
 
 WITH_VALUE = (Status.SOLVED, Status.APPROXIMATE)
 """statuses whose load factor is a result"""

@@ -46,13 +46,13 @@ from mbla.results.verification.remarks import MADE_LAST, differences_of_remarks,
 from mbla.solution.limits.geometric_safety import proved
 from mbla.solution.pushover.curve import begun_by, curve_of
 from mbla.solution.sensitivity.sensitivity import with_sensitivity
+from mbla.solution.sequence.tilt_circle import chord
 from mbla.solution.settings import settings_for, solver_settings
 from mbla.solution.solution import Checks, Solution, Standing, Status
 from mbla.solution.thresholds import SOLVED_RESIDUAL
-from mbla.solution.tilt import angle_of_load, found_angle, found_tangent, leads_across
-from mbla.solution.tilt_circle import chord
 from mbla.solution.verification.derived import with_derived
 from mbla.solution.verification.statics import load_scale
+from mbla.solution.verification.tilting_table import angle_of_load, found_angle, found_tangent, leads_across
 from mbla.solution.verification.verify import level_bound, verify
 from mbla.solution.verification.verify_points import verified_status
 

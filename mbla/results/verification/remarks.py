@@ -22,8 +22,9 @@ from mbla.results.verification.asked import by_normality
 from mbla.solution.limits.geometric_safety import no_geometric_safety, why_no_geometric_safety
 from mbla.solution.pushover.curve import no_pushover, pushover_remarks, why_not_pushed
 from mbla.solution.sensitivity.sensitivity import no_sensitivity, why_no_sensitivity
+from mbla.solution.sequence.tilting_table import NOT_PROVED_BETWEEN
 from mbla.solution.solution import WITH_VALUE, Solution, Status
-from mbla.solution.tilt import GOOD, NOT_PROVED_BETWEEN
+from mbla.solution.verification.tilting_table import GOOD
 
 
 def _without_dilatancy(case: CaseResult) -> bool:
