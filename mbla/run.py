@@ -28,7 +28,7 @@ from mbla.results.write import write_results
 from mbla.solution.cone_solvers.cone_solution import Log
 from mbla.solution.sequence.sequence import answered
 from mbla.solution.settings import SolverSettings, settings_for, solver_settings
-from mbla.solution.solution import IterationRecord, Solution, Status
+from mbla.solution.solution import IterationRecord, Status
 
 Progress = Callable[[str, IterationRecord], None]
 T = TypeVar("T")
@@ -172,19 +172,27 @@ def solve_case(
     log = _log_of(load_case, status_file, progress)
     answer = answered(assembly, load_case, settings, log)
     status_file.remark(f"{load_case.name}: {answer.status}")
-    found = CaseResult(answer.load_case, answer.solution, answer.checks, answer.status)
-    solution = answer.solution
+    case = CaseResult(answer.load_case, answer.solution, answer.checks, answer.status)
     if load_case.pushover is not None:
-        solution = _pushed(deck, assembly, found, settings_for(load_case, settings), log, tell)
+        case = _pushed(deck, assembly, case, settings_for(load_case, settings), log, tell)
+    return _finished(assembly, _with_limits(deck, assembly, case, log))
+
+
+def _with_limits(deck: Deck, assembly: Assembly, case: CaseResult, log: Log) -> CaseResult:
+    """A solved load case with its sensitivities and its geometric safety, where the deck asks for them."""
+    load_case, further = case.load_case, case.solution.further
     if deck.analysis.sensitivity is not False:
-        from mbla.solution.sensitivity.sensitivity import with_sensitivity  # late: few decks ask for it
+        from mbla.solution.further.sensitivity.sensitivity import sensitivity_of  # late: few decks ask for it
 
-        solution = with_sensitivity(deck, assembly, answer.load_case, solution, answer.checks)
+        slopes, remarks = sensitivity_of(deck, assembly, load_case, case.solution, case.checks)
+        further = replace(further, sensitivity=slopes)
+        case = case.with_further(further, remarks)
     if deck.analysis.geometric_safety:
-        from mbla.solution.limits.geometric_safety import with_geometric_safety  # late: few decks ask for it
+        from mbla.solution.further.geometric_safety.find import geometric_safety_of  # late: few decks ask for it
 
-        solution = with_geometric_safety(assembly, answer.load_case, solution, deck.analysis, log)
-    return _finished(assembly, replace(found, solution=solution))
+        safety, remarks = geometric_safety_of(assembly, load_case, deck.analysis, log)
+        case = case.with_further(replace(further, geometric_safety=safety), remarks)
+    return case
 
 
 def push_position(
@@ -200,8 +208,7 @@ def push_position(
     log = _log_of(case.load_case, status_file, progress)
     remarks = tuple(remark for remark in case.solution.remarks if remark.identifier != "brittle-ties")
     case = replace(case, solution=replace(case.solution, remarks=remarks))
-    solution = _pushed(deck, assembly, case, settings, log, tell)
-    return _finished(assembly, replace(case, solution=solution))
+    return _finished(assembly, _pushed(deck, assembly, case, settings, log, tell))
 
 
 def _log_of(load_case: LoadCase, status_file: StatusFile, progress: Progress | None) -> Log:
@@ -222,15 +229,19 @@ def _pushed(
     settings: SolverSettings,
     log: Log,
     tell: Tell[CaseResult],
-) -> Solution:
-    """The solution of a load case with its pushover."""
-    from mbla.solution.pushover.curve import pushed  # late: few load cases are
+) -> CaseResult:
+    """A load case with its pushover."""
+    from mbla.solution.pushover.curve import Found, pushed  # late: few load cases are
 
-    def so_far(make: Callable[[], Solution]) -> None:
-        tell(lambda: _finished(assembly, replace(case, solution=make())))
+    def beside(found: Found) -> CaseResult:
+        pushover, remarks = found
+        return case.with_further(replace(case.solution.further, pushover=pushover), remarks)
+
+    def so_far(make: Callable[[], Found]) -> None:
+        tell(lambda: _finished(assembly, beside(make())))
 
     solved = case.status is Status.SOLVED
-    return pushed(assembly, deck.contacts, case.load_case, case.solution, settings, log, solved, so_far)
+    return beside(pushed(assembly, deck.contacts, case.load_case, case.solution, settings, log, solved, so_far))
 
 
 def _finished(assembly: Assembly, case: CaseResult) -> CaseResult:

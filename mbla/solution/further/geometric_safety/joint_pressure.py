@@ -17,7 +17,7 @@ import numpy as np
 
 from mbla.deck.sections.analysis import AnalysisSection
 from mbla.solution.cone_solvers.cone_solution import Log
-from mbla.solution.sensitivity.structures import Structure
+from mbla.solution.further.sensitivity.structures import Structure
 from mbla.solution.sequence.sequence import analysed
 from mbla.solution.settings import solver_settings
 from mbla.solution.solution import WITH_VALUE, Checks, Solution, Status
