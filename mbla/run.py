@@ -16,7 +16,6 @@ from mbla.model.model import LoadCase, select_cases
 from mbla.process.run_options import RunOptions as RunOptions
 from mbla.process.sharing import Memory, sharing
 from mbla.process.stopwatch import Stopwatch, timing
-from mbla.program.build import build_program
 from mbla.results.assessment.assessment import with_remarks
 from mbla.results.collapse.ties import brittle_remarks
 from mbla.results.files import OutputFolder
@@ -27,13 +26,9 @@ from mbla.results.series import position_to_push
 from mbla.results.sta import StatusFile
 from mbla.results.write import write_results
 from mbla.solution.cone_solvers.cone_solution import Log
+from mbla.solution.sequence.sequence import answered
 from mbla.solution.settings import SolverSettings, settings_for, solver_settings
-from mbla.solution.solution import IterationRecord, Solution, Status
-from mbla.solution.solve import solve
-from mbla.solution.tilt import Answer
-from mbla.solution.trials import trials_of
-from mbla.solution.verification.verify import verify
-from mbla.solution.verification.verify_points import verified_status
+from mbla.solution.solution import IterationRecord, Status
 
 Progress = Callable[[str, IterationRecord], None]
 T = TypeVar("T")
@@ -170,33 +165,34 @@ def solve_case(
     progress: Progress | None,
     tell: Tell[CaseResult] = unheard,
 ) -> CaseResult:
-    """Program, solution and verification of one load case: once, or of a tilting table for every angle tried.
+    """One load case solved and verified, with what is asked besides.
 
     tell : told how to make the load case as far as it has come, where it is pushed on
     """
     log = _log_of(load_case, status_file, progress)
-    trials = trials_of(assembly, load_case, settings)
-    settings = settings_for(load_case, settings)
-    for case in trials:
-        program = build_program(assembly, case, settings.analysis)
-        solution = solve(program, settings, log)
-        trials.answer = Answer(case, solution, verify(assembly, case, solution))
-    answer = trials.answer
-    status = verified_status(answer.solution, answer.checks)
-    status_file.remark(f"{load_case.name}: {status}")
-    found = CaseResult(answer.load_case, answer.solution, answer.checks, status)
-    solution = answer.solution
+    answer = answered(assembly, load_case, settings, log)
+    status_file.remark(f"{load_case.name}: {answer.status}")
+    case = CaseResult(answer.load_case, answer.solution, answer.checks, answer.status)
     if load_case.pushover is not None:
-        solution = _pushed(deck, assembly, found, settings, log, tell)
+        case = _pushed(deck, assembly, case, settings_for(load_case, settings), log, tell)
+    return _finished(assembly, _with_limits(deck, assembly, case, log))
+
+
+def _with_limits(deck: Deck, assembly: Assembly, case: CaseResult, log: Log) -> CaseResult:
+    """A solved load case with its sensitivities and its geometric safety, where the deck asks for them."""
+    load_case, further = case.load_case, case.solution.further
     if deck.analysis.sensitivity is not False:
-        from mbla.solution.sensitivity.sensitivity import with_sensitivity  # late: few decks ask for it
+        from mbla.solution.further.sensitivity.sensitivity import sensitivity_of  # late: few decks ask for it
 
-        solution = with_sensitivity(deck, assembly, answer.load_case, solution, answer.checks)
+        slopes, remarks = sensitivity_of(deck, assembly, load_case, case.solution, case.checks)
+        further = replace(further, sensitivity=slopes)
+        case = case.with_further(further, remarks)
     if deck.analysis.geometric_safety:
-        from mbla.solution.limits.geometric_safety import with_geometric_safety  # late: few decks ask for it
+        from mbla.solution.further.geometric_safety.find import geometric_safety_of  # late: few decks ask for it
 
-        solution = with_geometric_safety(assembly, answer.load_case, solution, deck.analysis, log)
-    return _finished(assembly, replace(found, solution=solution))
+        safety, remarks = geometric_safety_of(assembly, load_case, deck.analysis, log)
+        case = case.with_further(replace(further, geometric_safety=safety), remarks)
+    return case
 
 
 def push_position(
@@ -212,8 +208,7 @@ def push_position(
     log = _log_of(case.load_case, status_file, progress)
     remarks = tuple(remark for remark in case.solution.remarks if remark.identifier != "brittle-ties")
     case = replace(case, solution=replace(case.solution, remarks=remarks))
-    solution = _pushed(deck, assembly, case, settings, log, tell)
-    return _finished(assembly, replace(case, solution=solution))
+    return _finished(assembly, _pushed(deck, assembly, case, settings, log, tell))
 
 
 def _log_of(load_case: LoadCase, status_file: StatusFile, progress: Progress | None) -> Log:
@@ -234,15 +229,19 @@ def _pushed(
     settings: SolverSettings,
     log: Log,
     tell: Tell[CaseResult],
-) -> Solution:
-    """The solution of a load case with its pushover."""
-    from mbla.solution.pushover.curve import pushed  # late: few load cases are
+) -> CaseResult:
+    """A load case with its pushover."""
+    from mbla.solution.pushover.curve import Found, pushed  # late: few load cases are
 
-    def so_far(make: Callable[[], Solution]) -> None:
-        tell(lambda: _finished(assembly, replace(case, solution=make())))
+    def beside(found: Found) -> CaseResult:
+        pushover, remarks = found
+        return case.with_further(replace(case.solution.further, pushover=pushover), remarks)
+
+    def so_far(make: Callable[[], Found]) -> None:
+        tell(lambda: _finished(assembly, beside(make())))
 
     solved = case.status is Status.SOLVED
-    return pushed(assembly, deck.contacts, case.load_case, case.solution, settings, log, solved, so_far)
+    return beside(pushed(assembly, deck.contacts, case.load_case, case.solution, settings, log, solved, so_far))
 
 
 def _finished(assembly: Assembly, case: CaseResult) -> CaseResult:

@@ -157,14 +157,12 @@ def test_another_least_state_is_not_believed(name: str, tmp_path: Path) -> None:
 
 LEFT_OUT: dict[str, dict[str, Any]] = {
     "standing": {"standing": None},
-    "ranges of normal forces": {"force_ranges": None},
 }
 
 
 def test_what_the_deck_asks_for_is_there(tmp_path: Path) -> None:
     deck = tmp_path / "deck.yaml"
-    asking = NON_ASSOCIATIVE.replace("non_associative}", "non_associative, force_ranges: true}")
-    deck.write_text(asking, encoding="utf-8")
+    deck.write_text(NON_ASSOCIATIVE, encoding="utf-8")
     results = run(deck, RunOptions(overrides=("parameters.mu=0.4",)))
     assert verify_file(tmp_path / "deck.out" / "deck.h5")[1] == ()
     for what, changes in LEFT_OUT.items():

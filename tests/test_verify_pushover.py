@@ -52,9 +52,11 @@ def forged(results: Results, change: Change, **others: object) -> Results:
     """A file with other rows of its pushover, and all that follows from them as a run would write it."""
     (case,) = results.cases
     deck, _ = rebuilt(results)
-    assert case.solution.pushed is not None
-    solution = replace(case.solution, pushed=change(case.solution.pushed), **others)  # type: ignore[arg-type]
-    again = recomputed(replace(results, cases=(replace(case, solution=solution),)), deck)
+    pushover = case.solution.further.pushover
+    assert pushover.rows is not None
+    pushover = replace(pushover, rows=change(pushover.rows), **others)  # type: ignore[arg-type]
+    case = case.with_further(replace(case.solution.further, pushover=pushover), ())
+    again = recomputed(replace(results, cases=(case,)), deck)
     return replace(again, exit_code=exit_code(again.cases, again.notices))
 
 
@@ -162,9 +164,8 @@ def test_a_reason_for_rows_that_are_missing_is_not_confirmed(
     ],
 )
 def test_rows_of_another_deck(other: str, says: str, slides: Results, tmp_path: Path) -> None:
-    theirs = run_of(tmp_path, *SLIDES, other).cases[0].solution
-    assert theirs.pushed is not None
-    rows = theirs.pushed
+    rows = run_of(tmp_path, *SLIDES, other).cases[0].solution.further.pushover.rows
+    assert rows is not None
     assert says in said_of(tmp_path, forged(slides, lambda _: rows))
 
 

@@ -83,7 +83,7 @@ def takes_stress_blocks(analysis: AnalysisSection) -> bool:
         analysis.flow_rule == "non_associative" and analysis.scheme == "auto"
     )
     by_flow = by_path or analysis.flow_rule == "associative"
-    return by_flow and analysis.solver in ("auto", "clarabel") and not analysis.force_ranges
+    return by_flow and analysis.solver in ("auto", "clarabel")
 
 
 def program_notices(model: Model, contacts: Contacts, analysis: AnalysisSection) -> tuple[Notice, ...]:

@@ -54,7 +54,6 @@ REMARKS_THAT_WARN = frozenset(
         "pushover-drops",
         "pushover-not-done",
         "pushover-rough",
-        "force-range-not-found",
         "geometric-safety-not-done",
         "sensitivity-not-done",
         "tilt-between-not-proved",
@@ -124,7 +123,7 @@ def _of_figures(case: CaseResult) -> list[Notice]:
         texts.append(("least-not-verified", "a state of a lower load factor was found but is not verified"))
     if solution.torsion is not None and checks.torsion_load_factor != checks.torsion_load_factor:
         texts.append(("torsion-not-verified", "the state with torsion of uniform pressure is not verified"))
-    if solution.geometric_safety is not None and not solution.geometric_safety.verified:
+    if solution.further.geometric_safety is not None and not solution.further.geometric_safety.verified:
         texts.append(("geometric-safety-not-verified", "the geometric factor of safety was found but is not verified"))
     return [Notice("warning", identifier, f"{name}: {text}", name) for identifier, text in texts]
 

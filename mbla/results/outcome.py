@@ -18,9 +18,9 @@ from mbla.results.findings import found_notices, magnitude_notices
 from mbla.results.results import CaseResult, Results
 from mbla.solution.flow.path_record import Stop
 from mbla.solution.pushover.pushed import CurveEnd
+from mbla.solution.sequence.tilt_circle import angle_above, line_of
 from mbla.solution.solution import PROVED_STANDING, Checks, Mechanics, Standing, Status
 from mbla.solution.thresholds import APPROXIMATE_RESIDUAL
-from mbla.solution.tilt_circle import angle_above, line_of
 
 WITH_VALUE = (Status.SOLVED, Status.APPROXIMATE)
 """statuses whose load factor is a result"""
@@ -206,7 +206,7 @@ def case_notices(case: CaseResult) -> tuple[Notice, ...]:
     name, standing, notices = case.load_case.name, case.solution.standing, []
     if standing is not None and standing.verdict is Standing.SELF_STRESS:
         figures = ["load factor is no collapse load"] if locked_in(case) and case.solution.mechanics is not None else []
-        safety = case.solution.geometric_safety
+        safety = case.solution.further.geometric_safety
         figures += ["geometric factor is no safety"] if safety is not None and safety.factor >= 1.0 else []
         what = f"; its {' and its '.join(figures)}" if figures else ""
         text = f"{name}: the structure stands only in a self-stressed state{what}"
@@ -263,7 +263,7 @@ def angle_of(case: CaseResult) -> float:
 
 def curve_residual(case: CaseResult) -> float:
     """The greatest residual of the steps of a pushover; 0 without any."""
-    return float(np.max([row.residual for row in case.solution.curve[1:]], initial=0.0))
+    return float(np.max([row.residual for row in case.solution.further.pushover.curve[1:]], initial=0.0))
 
 
 def ultimate_displacement(case: CaseResult, sure: bool = True) -> float:
@@ -273,15 +273,15 @@ def ultimate_displacement(case: CaseResult, sure: bool = True) -> float:
     where the pushover did not come so far, where there is none, and unless ``sure`` is false where its steps are not
     verified.
     """
-    curve = case.solution.curve
+    curve = case.solution.further.pushover.curve
     if sure and not curve_residual(case) <= APPROXIMATE_RESIDUAL:
         return math.nan
     behind = [row.step for row in curve[1:] if row.load_factor <= 0.0]
     if behind and case.load_case.settlement is None:
         curve = curve[: behind[0] + 1]
-    elif len(curve) > 1 and case.solution.curve_end in (CurveEnd.FALLS, CurveEnd.NOT_CARRIED):
+    elif len(curve) > 1 and case.solution.further.pushover.curve_end in (CurveEnd.FALLS, CurveEnd.NOT_CARRIED):
         return curve[-1].displacement
-    elif len(curve) < 2 or case.solution.curve_end is not CurveEnd.NOTHING_LEFT:
+    elif len(curve) < 2 or case.solution.further.pushover.curve_end is not CurveEnd.NOTHING_LEFT:
         return math.nan
     before, last = curve[-2:]
     share = before.load_factor / (before.load_factor - last.load_factor)

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
 from datetime import UTC, datetime
 
 from mbla.assembly.assembly import Assembly
 from mbla.contacts.contacts import Contacts
-from mbla.errors import Notice
+from mbla.errors import Message, Notice
 from mbla.model.model import LoadCase, Model
+from mbla.solution.further.further import Further
 from mbla.solution.solution import Checks, Solution, Status
 
 
@@ -44,6 +46,10 @@ class CaseResult:
     solution: Solution
     checks: Checks
     status: Status
+
+    def with_further(self, further: Further, remarks: Sequence[Message]) -> CaseResult:
+        """The same case with further results beside its answer, and what these have to say."""
+        return replace(self, solution=self.solution.with_further(further, remarks))
 
     @property
     def by_path(self) -> bool:

@@ -43,16 +43,18 @@ from mbla.results.verification.asked import (
     held_against_deck,
 )
 from mbla.results.verification.remarks import MADE_LAST, differences_of_remarks, remarks_found_again
-from mbla.solution.limits.geometric_safety import proved
+from mbla.solution.further.further import Further
+from mbla.solution.further.sensitivity.sensitivity import sensitivity_of
+from mbla.solution.further.sensitivity.slopes import Slope
 from mbla.solution.pushover.curve import begun_by, curve_of
-from mbla.solution.sensitivity.sensitivity import with_sensitivity
+from mbla.solution.sequence.tilt_circle import chord
 from mbla.solution.settings import settings_for, solver_settings
-from mbla.solution.solution import Checks, Solution, Standing, Status
+from mbla.solution.solution import Solution, Standing, Status
 from mbla.solution.thresholds import SOLVED_RESIDUAL
-from mbla.solution.tilt import angle_of_load, found_angle, found_tangent, leads_across
-from mbla.solution.tilt_circle import chord
 from mbla.solution.verification.derived import with_derived
+from mbla.solution.verification.geometric_safety import proved
 from mbla.solution.verification.statics import load_scale
+from mbla.solution.verification.tilting_table import angle_of_load, found_angle, found_tangent, leads_across
 from mbla.solution.verification.verify import level_bound, verify
 from mbla.solution.verification.verify_points import verified_status
 
@@ -142,27 +144,33 @@ def _recomputed_case(results: Results, case: CaseResult, deck: Deck | None) -> C
         upright = level_bound(assembly, replace(load_case, tilt=tilt), solution)
         angle = found_angle(tilt, load_case.live_load, solution)
         load_case = replace(load_case, tilt=replace(tilt, upright=upright, angle=angle))
-    pushes = load_case.pushover is not None and solution.pushed is not None
-    if deck is not None and pushes and solution.mechanics is not None:
-        solution = begun_by(load_case, solution)
-        solution = replace(solution, curve=curve_of(assembly, load_case, solution))
-    if solution.geometric_safety is not None:
-        safety = solution.geometric_safety
-        own = proved(assembly, load_case, safety)
-        solution = replace(solution, geometric_safety=replace(safety, verified=own))
     checks = verify(assembly, load_case, solution)
+    further = _further_again(results, deck, CaseResult(load_case, solution, checks, case.status))
+    return CaseResult(load_case, solution.with_further(further), checks, verified_status(solution, checks))
+
+
+def _further_again(results: Results, deck: Deck | None, case: CaseResult) -> Further:
+    """The further results of a case whose checks were recomputed, as far as they follow from what is known of them."""
+    assembly, load_case, solution, further = results.assembly, case.load_case, case.solution, case.solution.further
+    rows, safety = further.pushover.rows, further.geometric_safety
+    if deck is not None and load_case.pushover is not None and rows is not None and solution.mechanics is not None:
+        rows = begun_by(load_case, solution, rows)
+        curve = curve_of(assembly, load_case, solution, rows)
+        further = replace(further, pushover=replace(further.pushover, rows=rows, curve=curve))
+    if safety is not None:
+        own = proved(assembly, load_case, safety)
+        further = replace(further, geometric_safety=replace(safety, verified=own))
     if deck is not None and deck.analysis.sensitivity is not False and not at_work(results, case):
-        solution = _with_slopes(results, load_case, solution, checks)
-    return CaseResult(load_case, solution, checks, verified_status(solution, checks))
+        further = replace(further, sensitivity=_slopes_again(results, case))
+    return further
 
 
-def _with_slopes(results: Results, load_case: LoadCase, solution: Solution, checks: Checks) -> Solution:
-    """The solution with slopes of the load factor from its forces and mechanism, and the deck built anew for each."""
+def _slopes_again(results: Results, case: CaseResult) -> tuple[Slope, ...]:
+    """Slopes of the load factor from its forces and mechanism, and the deck built anew for each."""
     with tempfile.TemporaryDirectory() as name:
         deck = deck_of(results.deck, Path(name), expected=False)
-        bare = replace(solution, sensitivity=())
-        found = with_sensitivity(deck, results.assembly, load_case, bare, checks)
-        return replace(solution, sensitivity=found.sensitivity)
+        slopes, _ = sensitivity_of(deck, results.assembly, case.load_case, case.solution, case.checks)
+        return slopes
 
 
 def _as_asked_for(solution: Solution, load_case: LoadCase, deck: Deck, *, crushable: bool) -> Solution:

@@ -84,7 +84,7 @@ def write_record(results: Results, out: Files, *, every_position: bool) -> Resul
     """
     if series_of(results.cases):
         out.write_text(f"{out.stem}_positions.csv", table_csv(tables_of(results, (SERIES.name,))[SERIES.name]))
-    if any(case.solution.curve for case in results.cases):
+    if any(case.solution.further.pushover.curve for case in results.cases):
         out.write_text(f"{out.stem}_curve.csv", table_csv(tables_of(results, (CURVE.name,))[CURVE.name]))
     files = sorted({*out.names, *(f"{out.stem}.{suffix}" for suffix in ("lst", "h5", "json"))})
     results = replace(results, files=tuple(files))

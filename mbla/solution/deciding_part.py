@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from mbla.arrays import FloatArray, IntArray
+from mbla.arrays import FloatArray
 from mbla.errors import Message
 from mbla.program.program import Program
-from mbla.solution.associative.force_ranges import force_ranges
 from mbla.solution.cone_solvers.cone_solution import Log
 from mbla.solution.flow.path_record import Stop
 from mbla.solution.law.interfaces import NONE, Interfaces
@@ -19,7 +18,7 @@ from mbla.solution.nonassociative.law_state import LawState
 from mbla.solution.nonassociative.least_found import looks_lower
 from mbla.solution.nonassociative.locking import locking_forces
 from mbla.solution.part_result import PartResult
-from mbla.solution.parts import assemble_parts, at_rest
+from mbla.solution.parts import assemble_parts
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Mechanics, PathByStiffness, ProgramRecord, Solution, Status
 
@@ -57,20 +56,16 @@ OF_INTERFACES = Message(
 class SolvedParts:
     """All parts of a structure with what was found for each.
 
-    interface_of_point : (n_points,) of the full model
-    interfaces         : of the model that have a law of their own in the path of elastic joints
-    beside             : those in a second path, with torsion
-    more               : programs solved for all of them together
+    interfaces : of the model that have a law of their own in the path of elastic joints
+    beside     : those in a second path, with torsion
     """
 
     parts: tuple[Program, ...]
     results: tuple[PartResult, ...]
-    interface_of_point: IntArray
     settings: SolverSettings
     log: Log
     interfaces: Interfaces = NONE
     beside: Interfaces = NONE
-    more: list[ProgramRecord] = field(default_factory=list)
 
     def mechanics(
         self,
@@ -167,9 +162,6 @@ def _with_load_factor(solved: SolvedParts, first: int, first_associative: int) -
         ),
         lock=locking_forces(solved.parts, solved.settings, solved.log) if locked else None,
     )
-    if analysis.force_ranges and result.state is not None:
-        ranges, words = _force_ranges(solved, first, result.state)
-        solution, remarks = replace(solution, force_ranges=ranges), [*remarks, *words]
     if result.sequence is None:
         return replace(solution, mechanics=solution.associative, remarks=tuple(remarks))
     sequence, rule = result.sequence, analysis.flow_rule
@@ -234,23 +226,6 @@ def _tolerance_requested(results: Sequence[PartResult]) -> float | None:
     requested = [result.tolerance_requested for result in open_parts if result.status is Status.APPROXIMATE]
     known = [value for value in requested if value is not None]
     return max(known) if known and len(known) == len(open_parts) else None
-
-
-def _force_ranges(solved: SolvedParts, first: int, state: LawState) -> tuple[FloatArray, list[Message]]:
-    """Least and greatest normal force of every interface at the load factor, (n_interfaces, 2), and remarks."""
-    interfaces, first_point = np.unique(solved.interface_of_point, return_index=True)
-    ranges, words = np.full((len(interfaces), 2), np.nan), list[Message]()
-    scaling = solved.parts[0].scaling
-    units = scaling.force * np.broadcast_to(scaling.units, len(solved.interface_of_point))[first_point]
-    for part, program in enumerate(solved.parts):
-        own = state if part == first else at_rest(program, state.load_factor, solved.settings, solved.log)
-        if own is None:
-            continue
-        found = force_ranges(program, own, solved.interface_of_point, solved.settings, solved.log)
-        ranges = np.where(np.isnan(found.ranges), ranges, found.ranges * units[:, None])
-        solved.more.extend(found.programs)
-        words += [found.remark] if found.remark else []
-    return ranges, words
 
 
 def _solution(settings: SolverSettings, status: Status, reason: str) -> Solution:

@@ -151,12 +151,8 @@ def _rows(mechanics: Mechanics, names: tuple[str, ...]) -> dict[str, FloatArray]
 
 def _with_interfaces(solution: Solution, changed: Callable[[FloatArray], FloatArray]) -> Solution:
     """The solution with a change of what it has of each interface besides its mechanics."""
-    motions, ranges = solution.certificate_motions, solution.force_ranges
-    return replace(
-        solution,
-        certificate_motions=None if motions is None else changed(motions),
-        force_ranges=None if ranges is None else changed(ranges),
-    )
+    motions = solution.certificate_motions
+    return replace(solution, certificate_motions=None if motions is None else changed(motions))
 
 
 def without_rounding(mechanics: Mechanics, bodies: RigidBodies, lengths: FloatArray) -> Mechanics:

@@ -75,6 +75,5 @@ def settings_for(load_case: LoadCase, settings: SolverSettings) -> SolverSetting
     """The settings of one load case: an objective is a static question, and its bounds are those of normality."""
     if load_case.objective is None:
         return settings
-    static = {"flow_rule": "associative", "force_ranges": False}
-    analysis = settings.analysis.model_copy(update=static)
+    analysis = settings.analysis.model_copy(update={"flow_rule": "associative"})
     return replace(settings, standing=False, analysis=analysis)

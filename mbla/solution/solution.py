@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
 from enum import IntEnum, StrEnum
 
 from mbla.arrays import FloatArray, IntArray
 from mbla.errors import Message
 from mbla.program.reductions import ModelSize as ModelSize
 from mbla.program.reductions import ReductionStep as ReductionStep
-from mbla.solution.pushover.pushed import CurveEnd, CurveRow
-from mbla.solution.pushover.record import PushedRows
-from mbla.solution.sensitivity.slopes import Slope
+from mbla.solution.further.further import NOTHING_FURTHER, Further
 
 
 class Status(StrEnum):
@@ -138,40 +137,6 @@ class PathByStiffness:
 
 
 @dataclass(frozen=True)
-class GeometricSafety:
-    """The least size of joints, all shrunk about their middles, that carries the dead load, between two sizes.
-
-    sizes        : (n_ends,) over that of the joints: at the first it stands, at the second it falls; there is no second
-                   where joints of next to no size stand
-    pressed      : (n_ends,) pressure on all joints in the problem that shows it, whose load factor takes it away again:
-                   above it the dead load alone is carried, below it not; over the dead load per area of joints
-    load_factors : (n_ends,) of that problem
-    forces       : (n_ends, n_points, 3) N, T1, T2 [N] at the points of the shrunk joints
-    mechanisms   : (n_ends, n_blocks, 6) for a live power of 1
-    solves       : programs with a load factor that were solved
-    verified     : whether code that did not solve them confirms that it stands at the first and falls at the second
-    """
-
-    sizes: FloatArray
-    pressed: FloatArray
-    load_factors: FloatArray
-    forces: FloatArray
-    mechanisms: FloatArray
-    solves: int
-    verified: bool
-
-    @property
-    def factor(self) -> float:
-        """The geometric factor of safety that is shown: the joints may shrink by that; more than it is not."""
-        return 1.0 / float(self.sizes[0])
-
-    @property
-    def most(self) -> float:
-        """A factor that is not reached; inf where none is known."""
-        return 1.0 / float(self.sizes[1]) if len(self.sizes) > 1 else float("inf")
-
-
-@dataclass(frozen=True)
 class Mechanics:
     """Forces and velocities that belong to one load factor.
 
@@ -242,18 +207,11 @@ class Solution:
     standing    : assessment of the dead load alone
     lock        : unbounded, or without an associative answer: (n_points, 3) contact forces that balance the live load
                   alone, so that any multiple is carried with associative flow
-    force_ranges: (n_interfaces, 2) least and greatest normal force at the load factor, on request
     path        : states of the path of elastic joints that was followed
     path_end, path_gain, path_last : why it ended, share of the load factor gained over its last half, and load factor
                   at its end
     path_by_stiffness : what other paths came to, of joints of another stiffness in shear, where any was followed
-    curve       : steps of the pushover, the structure as built first; empty where none was asked for
-    curve_end   : why it ends
-    curve_end_error, curve_last_error : change of the displacement there, m, and of the load factor there with steps of
-                  twice the size; nan where that is not known
-    pushed      : forces and mechanisms of its steps
-    sensitivity : slopes of the associative load factor, by the parameters that the deck asks for
-    geometric_safety : of the dead load alone, on request
+    further     : what is asked besides the load factor
     size        : what reached the solver
     reductions  : what each reduction left out, in the order in which they were applied; empty where none was attempted
     solver      : that was asked for, as in ``analysis.solver``; ``programs`` say which took each
@@ -279,19 +237,12 @@ class Solution:
     level_lock: FloatArray | None = None
     standing: StandingResult | None = None
     lock: FloatArray | None = None
-    force_ranges: FloatArray | None = None
     path: tuple[PathPoint, ...] = ()
     path_end: str = ""
     path_gain: float = math.nan
     path_last: float = math.nan
     path_by_stiffness: tuple[PathByStiffness, ...] = ()
-    curve: tuple[CurveRow, ...] = ()
-    curve_end: CurveEnd = CurveEnd.NONE
-    curve_end_error: float = math.nan
-    curve_last_error: float = math.nan
-    pushed: PushedRows | None = field(default=None, compare=False)
-    sensitivity: tuple[Slope, ...] = ()
-    geometric_safety: GeometricSafety | None = field(default=None, compare=False)
+    further: Further = NOTHING_FURTHER
     size: ModelSize | None = None
     certificate_motions: FloatArray | None = None
     contact_model: str = "concave"
@@ -304,6 +255,10 @@ class Solution:
     def conditions_on_interfaces(self) -> bool:
         """Whether conditions hold on the resultants of interfaces, not on contact points alone."""
         return self.contact_model == "convex" or self.stress_blocks
+
+    def with_further(self, further: Further, remarks: Sequence[Message] = ()) -> Solution:
+        """The same answer with further results, and what they have to say."""
+        return replace(self, further=further, remarks=(*self.remarks, *remarks))
 
 
 @dataclass(frozen=True)

@@ -102,9 +102,7 @@ def solve_parts(
     """
     started, (iterations, record) = time.perf_counter(), recorded(log)
     results = tuple(_result_of(program, settings, record, interfaces, beside) for program in reduced.parts)
-    parts = reduced.parts, results, reduced.interface_of_point
-    solved = SolvedParts(*parts, settings, record, interfaces, beside)
-    solution = combined(solved)
+    solution = combined(SolvedParts(reduced.parts, results, settings, record, interfaces, beside))
     assessed = [result.standing for result in results if result.standing is not None]
     standing = worst_standing(assessed) if assessed else None
     if standing is not None:
@@ -112,7 +110,7 @@ def solve_parts(
     return replace(
         solution,
         standing=standing,
-        programs=renumbered([*(record for result in results for record in result.programs), *solved.more]),
+        programs=renumbered([record for result in results for record in result.programs]),
         iterations=tuple(iterations),
         seconds=time.perf_counter() - started,
         size=reduced.size,

@@ -12,7 +12,7 @@ import pytest
 from mbla.results.force_range import end_bounds, end_value, force_ranges_of
 from mbla.results.outcome import reaction_of
 from mbla.results.results import CaseResult
-from mbla.solution.objective import measured_force
+from mbla.solution.sequence.objective import measured_force
 from mbla.solution.solution import Status
 from tests.analytic.planar import (
     arch_joints,

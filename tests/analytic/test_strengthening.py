@@ -13,8 +13,8 @@ import scipy.sparse as sp
 from scipy.optimize import linprog
 
 from mbla.deck import read_deck
+from mbla.solution.further.strengthening import Cheapest, cheapest
 from mbla.solution.solution import WITH_VALUE, Status
-from mbla.solution.strengthening import Cheapest, cheapest
 from mbla.sweeps.strengthen.question import question_of
 from tests.analytic.planar import (
     Array,

@@ -227,8 +227,8 @@ def test_rocking_about_the_edge_of_a_surface(tmp_path: Path) -> None:
     (case,) = results.cases
     # its centroid, 0.2 before the edge and 0.5 above, turns about the edge: the overhang over the height is left
     radius = np.hypot(0.2, 0.5)
-    assert len(case.solution.curve) > 4
-    for row in case.solution.curve:
+    assert len(case.solution.further.pushover.curve) > 4
+    for row in case.solution.further.pushover.curve:
         left = 0.2 - row.displacement
         assert row.load_factor == pytest.approx(left / np.sqrt(radius**2 - left**2), rel=1e-3), row
     assert not verify_file(tmp_path / "out" / "deck.h5")[1]

@@ -19,7 +19,7 @@ from tests.deck.keys_in_use import Key, all_keys, keys_in_use, sections_of
 from tests.decks.folder import PATHS, deck_of
 
 UNUSED: dict[str, str] = {
-    "AnalysisSection": "force_ranges gap max_iterations reductions residual search standing time_limit tolerance",
+    "AnalysisSection": "gap max_iterations reductions residual search standing time_limit tolerance",
     "MeshItem": "weld",
     "OutputSection": "plots positions",
     "PathOfJoints": "ratio",

@@ -10,7 +10,7 @@ import pytest
 from mbla.arrays import FloatArray
 from mbla.program.kinematic import kinematic_form
 from mbla.program.program import Program
-from mbla.program.static import PointMotion, fixed_mechanism_form, gravity_form
+from mbla.program.static import gravity_form
 from mbla.program.yield_conditions import YieldLimits, yield_violation
 from tests.program.random_points import balance, least_room, mixed_program, random_forces, slack
 
@@ -73,48 +73,6 @@ def test_all_points_in_one_program(components: int) -> None:
             forces[point] = random_forces(program, draw)[point]
             allowed = within(program, forces)
             assert (least_room(gravity_form(program).cone_program, forces.ravel()) >= 0) == allowed
-
-
-def random_motion(program: Program, draw: np.random.Generator) -> PointMotion:
-    """A point that opens, crushes or neither, and slides or not."""
-    n, c = program.n_points, program.components
-    kind = draw.integers(0, 3, n)
-    shear = draw.normal(size=(n, c - 1))
-    crushes = (kind == 1) & np.isfinite(program.limits.compression)
-    return PointMotion(kind == 0, crushes, draw.random(n) < 0.5, shear / np.linalg.norm(shear, axis=1)[:, None])
-
-
-@BOTH
-def test_forces_under_a_given_mechanism(components: int) -> None:
-    draw = np.random.default_rng(6)
-    seen = set()
-    for program, _ in each_point(components):
-        law, motion = program.limits, random_motion(program, draw)
-        form = fixed_mechanism_form(program, motion)
-        y = draw.normal(size=form.expand.shape[1] + 1)
-        forces = form.forces(y)
-        normal, shear = forces[0, 0], forces[0, 1:]
-        strength = law.cohesion[0] + law.friction[0] * normal
-        if motion.opens[0]:
-            assert normal == -law.tension[0]
-        elif motion.crushes[0]:
-            assert normal == law.compression[0]
-        if motion.slides[0]:
-            assert shear == pytest.approx((max(strength, 0.0) if _held(motion) else strength) * motion.shear[0])
-        beyond = yield_violation(forces, law)[0] > 1e-12
-        if least_room(form.cone_program, y) >= 0:
-            assert not beyond
-            seen.add("allowed")
-        else:
-            assert beyond or (motion.slides[0] and strength < 0)
-            seen.add("not allowed")
-        np.testing.assert_allclose(slack(form.cone_program, y)[:12], balance(program, forces, form.load_factor(y)))
-        assert form.load_factor(y) == y[-1] == form.cone_program.cost @ y
-    assert seen == {"allowed", "not allowed"}
-
-
-def _held(motion: PointMotion) -> bool:
-    return bool(motion.opens[0] or motion.crushes[0])
 
 
 @BOTH

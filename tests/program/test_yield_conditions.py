@@ -124,7 +124,6 @@ def test_what_crushes_as_stress_blocks_do_is_not_warned_of() -> None:
         (("analysis.contact_model=convex",), False),
         (("analysis={flow_rule: non_associative, scheme: published}",), True),
         (("analysis.solver=mbla",), True),
-        (("analysis.force_ranges=true",), True),
     ):
         line = line_of(BLOCK, "joints.dry.compressive_strength=1e6", *ways)
         notices = program_notices(line.model, line.contacts, line.deck.analysis)

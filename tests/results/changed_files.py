@@ -12,8 +12,9 @@ import h5py
 
 from mbla.process.run_options import RunOptions
 from mbla.results.hdf5.result_file import write_results_hdf5
-from mbla.results.results import Results
+from mbla.results.results import CaseResult, Results
 from mbla.run import run
+from mbla.solution.pushover.pushed import CurveRow
 
 
 @contextlib.contextmanager
@@ -52,6 +53,12 @@ def written(tmp_path: Path, results: Results) -> Path:
     path = tmp_path / "forged.h5"
     path.write_bytes(write_results_hdf5(results))
     return path
+
+
+def with_curve(case: CaseResult, curve: tuple[CurveRow, ...]) -> CaseResult:
+    """A load case with other rows of its capacity curve."""
+    further = case.solution.further
+    return case.with_further(replace(further, pushover=replace(further.pushover, curve=curve)), ())
 
 
 def with_case(results: Results, **changed: Any) -> Results:

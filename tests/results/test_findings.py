@@ -46,7 +46,7 @@ def test_every_other_status_is_a_warning_with_its_reason(status: Status) -> None
 def test_failures_and_remarks() -> None:
     case = push()
     failures = (Message("equilibrium-residual", "0.1"), Message("bounds-apart", "1 and 2"))
-    remarks = (Message("elastic-path-rises", "on"), Message("force-range-not-found", "no end"))
+    remarks = (Message("elastic-path-rises", "on"), Message("pushover-drops", "here"))
     case = replace(
         case, checks=replace(case.checks, failures=failures), solution=replace(case.solution, remarks=remarks)
     )
@@ -54,7 +54,7 @@ def test_failures_and_remarks() -> None:
         "equilibrium-residual",
         "bounds-apart",
         "elastic-path-rises",
-        "force-range-not-found",
+        "pushover-drops",
     ]
     assert [notice.severity for notice in found_notices(case)] == ["warning", "warning", "notice", "warning"]
 

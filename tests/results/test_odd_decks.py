@@ -171,7 +171,6 @@ load_cases: {pull: {live: [{force: [0, 0, -1000], on: hanging, at: [0.5, 0.5, 0]
         (),
     ),
     "livesley": (STACK, ("analysis.flow_rule=livesley",)),
-    "force_ranges": (STACK, ("analysis.force_ranges=true",)),
     "crushing": (STACK.replace("0.6}", "0.6, compressive_strength: 2.e+6}"), ("analysis.contact_model=convex",)),
 }
 

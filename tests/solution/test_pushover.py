@@ -13,10 +13,10 @@ from mbla.deck import read_deck
 from mbla.model import build_model
 from mbla.program.build import build_program
 from mbla.results.listing.pushover import energy_missing
-from mbla.solution.pushover.curve import pushed
+from mbla.solution.pushover.curve import Found, pushed
 from mbla.solution.pushover.pushed import CurveEnd, CurveRow
+from mbla.solution.pushover.pushover import Pushover
 from mbla.solution.settings import solver_settings
-from mbla.solution.solution import Solution
 from mbla.solution.solve import solve
 from tests.line import BLOCK
 
@@ -26,13 +26,18 @@ ARCH = DECKS / "tutorials" / "arch.yaml"
 WALL_1 = DECKS / "benchmarks" / "published" / "ferris_wall_1.yaml"
 
 
-def pushover_of(path: Path, *overrides: str) -> Solution:
-    """The first load case of a deck with its capacity curve."""
+def pushed_case(path: Path, *overrides: str) -> Found:
+    """The capacity curve of the first load case of a deck, and remarks on it."""
     deck = read_deck(path, overrides)
     model = build_model(deck)
     assembly, case, settings = build_assembly(deck, model), model.load_cases[0], solver_settings(deck.analysis)
     solution = solve(build_program(assembly, case, deck.analysis), settings)
     return pushed(assembly, deck.contacts, case, solution, settings, lambda record: None, solved=True)
+
+
+def pushover_of(path: Path, *overrides: str) -> Pushover:
+    """The same without the remarks."""
+    return pushed_case(path, *overrides)[0]
 
 
 def columns(curve: tuple[CurveRow, ...]) -> tuple[np.ndarray, np.ndarray]:
@@ -45,15 +50,15 @@ def test_a_block_rocks_by_its_closed_form_until_it_falls() -> None:
 
     The first step goes by the motion of elastic joints, of which some also close: 6e-6 of the factor.
     """
-    solution = pushover_of(ROCKING)
+    found = pushover_of(ROCKING)
     alpha, radius = math.atan(0.2), math.hypot(0.2, 1.0) / 2
-    moved, factors = columns(solution.curve)
+    moved, factors = columns(found.curve)
     assert factors == pytest.approx(np.tan(np.arcsin(np.sin(alpha) - moved / radius)), abs=1e-5)
-    assert solution.curve_end is CurveEnd.NOTHING_LEFT
-    before, last = solution.curve[-2:]
+    assert found.curve_end is CurveEnd.NOTHING_LEFT
+    before, last = found.curve[-2:]
     ends = [last.load_factor, before.load_factor], [last.displacement, before.displacement]
     assert np.interp(0.0, *ends) == pytest.approx(0.1, rel=1e-4)
-    assert abs(energy_missing(solution.curve)) < 1e-3
+    assert abs(energy_missing(found.curve)) < 1e-3
 
 
 ALPHA, RADIUS = math.atan(0.2), math.hypot(0.2, 1.0) / 2
@@ -64,9 +69,9 @@ ALPHA, RADIUS = math.atan(0.2), math.hypot(0.2, 1.0) / 2
 def test_a_curve_ends_where_the_load_factor_has_fallen_to_the_one_asked_for(end: float) -> None:
     """Below 0 the load holds back the block, which falls by itself: tan(alpha - theta) goes on through 0."""
     push = ("load_cases.push.pushover.error=false", f"load_cases.push.pushover.until_load_factor={end}")
-    solution = pushover_of(ROCKING, *push)
-    moved, factors = columns(solution.curve)
-    assert solution.curve_end is CurveEnd.FACTOR_REACHED
+    found = pushover_of(ROCKING, *push)
+    moved, factors = columns(found.curve)
+    assert found.curve_end is CurveEnd.FACTOR_REACHED
     assert factors[-1] == pytest.approx(end, rel=1e-5)
     assert factors == pytest.approx(np.tan(np.arcsin(np.sin(ALPHA) - moved / RADIUS)), abs=1e-5)
 
@@ -80,10 +85,10 @@ def test_a_curve_that_goes_on_behind_it_has_a_row_where_nothing_is_left() -> Non
 
 
 def test_a_curve_does_not_end_above_the_load_factor_that_it_begins_with() -> None:
-    solution = pushover_of(ROCKING, "load_cases.push.pushover.until_load_factor=0.3")
-    assert not solution.curve
+    found, remarks = pushed_case(ROCKING, "load_cases.push.pushover.until_load_factor=0.3")
+    assert not found.curve
     words = "its until_load_factor 0.3 is not below the load factor 0.2 at which the structure starts to move"
-    assert words in solution.remarks[-1].words
+    assert words in remarks[-1].words
 
 
 @pytest.mark.every(3)
@@ -121,8 +126,8 @@ def test_a_load_that_follows_turns_with_its_block() -> None:
     The control point is where it acts.
     """
     force = "{force: [100, 0, 0], on: block, at: [0.1, 0.25, 1.0], follows: true}"
-    solution = pushover_of(ROCKING, f"load_cases.push={{live: [{force}], pushover: {{step: 0.005}}}}")
-    moved, factors = columns(solution.curve)
+    found = pushover_of(ROCKING, f"load_cases.push={{live: [{force}], pushover: {{step: 0.005}}}}")
+    moved, factors = columns(found.curve)
     turned = math.atan(0.1) + np.arcsin((moved - 0.1) / math.hypot(0.1, 1.0))
     weight = 2000 * 0.2 * 0.5 * 9.81
     assert 100 * factors == pytest.approx(weight * (0.1 * np.cos(turned) - 0.5 * np.sin(turned)), abs=1e-5 * weight)
@@ -130,9 +135,9 @@ def test_a_load_that_follows_turns_with_its_block() -> None:
 
 def test_points_of_a_grid_press_by_their_areas() -> None:
     """Those at corners and edges have less than those inside, in the rows as in a planar program."""
-    solution = pushover_of(ROCKING, "contacts.points.per_edge=4", "load_cases.push.pushover.steps=3")
-    assert len(solution.curve) == 4
-    assert max(row.residual for row in solution.curve) < 1e-6
+    found = pushover_of(ROCKING, "contacts.points.per_edge=4", "load_cases.push.pushover.steps=3")
+    assert len(found.curve) == 4
+    assert max(row.residual for row in found.curve) < 1e-6
 
 
 @pytest.mark.long
@@ -153,12 +158,12 @@ def test_the_curve_does_not_know_units(units: str, tmp_path: Path) -> None:
 def test_a_sliding_block_keeps_its_load_factor_and_does_not_lift() -> None:
     block = ("joints.dry.friction=0.3", "parameters.b=1", "parameters.h=0.4")
     push = "load_cases.push={live: [{acceleration: [1, 0.4, 0]}], pushover: {step: 0.02, until: 0.5}}"
-    solution = pushover_of(ROCKING, *block, push)
-    moved, factors = columns(solution.curve)
+    found = pushover_of(ROCKING, *block, push)
+    moved, factors = columns(found.curve)
     assert factors == pytest.approx(0.3 / math.hypot(1.0, 0.4), rel=1e-7)
     assert moved[-1] == pytest.approx(0.5, abs=0.02)
-    assert solution.curve_end is CurveEnd.REACHED
-    last = solution.curve[-1]
+    assert found.curve_end is CurveEnd.REACHED
+    last = found.curve[-1]
     assert abs(last.potential) < 1e-5 * last.friction  # joints sag by a millionth of the size
     assert last.friction == pytest.approx(last.live_work, rel=5e-6)
 
@@ -172,16 +177,16 @@ def test_the_published_curve_of_a_wall(rounding: float, ordinates: float, slope:
     met to 6 %, from above behind a snap at 0.13 m.
     """
     push = "load_cases.push_x.pushover={step: 0.005, until: 0.21, control: {on: {group: wall, index: 32}}}"
-    solution = pushover_of(WALL_1, f"contacts.points={{rounding: {rounding}}}", push)
+    found = pushover_of(WALL_1, f"contacts.points={{rounding: {rounding}}}", push)
     at = np.array([0.06, 0.08, 0.10, 0.12, 0.14, 0.16, 0.18, 0.20])
     lmgc90 = np.array([0.531, 0.505, 0.480, 0.455, 0.430, 0.402, 0.374, 0.345])
     udec = np.array([0.540, 0.514, 0.488, 0.464, 0.440, 0.412, 0.385, 0.357])
-    factors = np.interp(at, *columns(solution.curve))
+    factors = np.interp(at, *columns(found.curve))
     assert factors == pytest.approx((lmgc90 + udec) / 2, rel=ordinates)
     slopes = [np.polyfit(at, values, 1)[0] for values in (factors, (lmgc90 + udec) / 2)]
     assert slopes[0] == pytest.approx(slopes[1], rel=slope)
-    assert max(row.overlap for row in solution.curve) < 1e-4
-    kept = [row for row in solution.curve if row.displacement < 0.2]
+    assert max(row.overlap for row in found.curve) < 1e-4
+    kept = [row for row in found.curve if row.displacement < 0.2]
     assert abs(energy_missing(kept)) < 0.025  # stones that drop a little
 
 
@@ -197,23 +202,23 @@ def test_the_published_curve_of_an_arch() -> None:
 
 
 def test_steps_are_counted() -> None:
-    solution = pushover_of(ROCKING, "load_cases.push.pushover.steps=3")
-    assert [row.step for row in solution.curve] == [0, 1, 2, 3]
-    assert solution.curve_end is CurveEnd.STEPS_DONE
+    found = pushover_of(ROCKING, "load_cases.push.pushover.steps=3")
+    assert [row.step for row in found.curve] == [0, 1, 2, 3]
+    assert found.curve_end is CurveEnd.STEPS_DONE
 
 
 def test_what_cannot_be_followed_is_said(tmp_path: Path) -> None:
     (path := tmp_path / "deck.yaml").write_text(BLOCK, encoding="utf-8")
     push = "load_cases.push.pushover={step: 0.1}"
-    solution = pushover_of(path, push, "joints.dry.compressive_strength=1.e+6")
-    assert not solution.curve
-    assert solution.remarks[-1].identifier == "pushover-not-done"
-    assert "joints can crush" in solution.remarks[-1].words
+    found, remarks = pushed_case(path, push, "joints.dry.compressive_strength=1.e+6")
+    assert not found.curve
+    assert remarks[-1].identifier == "pushover-not-done"
+    assert "joints can crush" in remarks[-1].words
 
 
 @pytest.mark.long
 def test_a_wall_is_followed_until_it_goes_on_by_itself() -> None:
     """Stones lose their seat on the way; every row is in balance all the same, until the wall falls."""
-    solution = pushover_of(WALL_1, "load_cases.push_x.pushover={step: 0.005}")
-    assert solution.curve_end is CurveEnd.FALLS
-    assert max(row.residual for row in solution.curve) < 1e-5
+    found = pushover_of(WALL_1, "load_cases.push_x.pushover={step: 0.005}")
+    assert found.curve_end is CurveEnd.FALLS
+    assert max(row.residual for row in found.curve) < 1e-5

@@ -39,11 +39,11 @@ def closed_form(moved: np.ndarray) -> np.ndarray:
 def test_a_block_that_crushes_its_toe_rocks_about_the_end_of_its_stress_block(solver: str) -> None:
     """Crushed points sink one more than the other, and friction between them is a couple: 7e-4 at most."""
     _, case = case_of(DECK, f"analysis={{solver: {solver}}}")
-    curve = case.solution.curve
+    curve = case.solution.further.pushover.curve
     moved, factors = np.array([[row.displacement, row.load_factor] for row in curve]).T
     assert len(curve) > 9
     assert factors == pytest.approx(closed_form(moved), abs=1e-3)
-    assert case.solution.curve_end is CurveEnd.NOTHING_LEFT
+    assert case.solution.further.pushover.curve_end is CurveEnd.NOTHING_LEFT
     assert max(row.residual for row in curve) < 1e-5
     assert curve[-1].crushing > 10.0 * curve[-1].friction
     assert abs(energy_missing(curve)) < 2e-3
@@ -52,7 +52,7 @@ def test_a_block_that_crushes_its_toe_rocks_about_the_end_of_its_stress_block(so
 
 def test_a_row_that_presses_harder_than_the_strength_is_found() -> None:
     assembly, (case,) = cases_of(DECK, "load_cases.push.pushover.steps=1")
-    rows, model = case.solution.pushed, assembly.model
+    rows, model = case.solution.further.pushover.rows, assembly.model
     assert rows is not None
     weaker = {"dry": replace(model.joints["dry"], compressive_strength=0.9 * 200000)}
     good, bad = (
@@ -65,7 +65,7 @@ def test_a_row_that_presses_harder_than_the_strength_is_found() -> None:
 
 def test_joints_that_crush_need_points_between_their_corners() -> None:
     _, case = case_of(DECK, "parameters.n=1")
-    assert not case.solution.curve
+    assert not case.solution.further.pushover.curve
     words = "joints can crush, which is followed at points: give contacts.points a per_edge or spacing"
     assert words in case.solution.remarks[-1].words
 
@@ -78,7 +78,7 @@ def test_an_arch_that_crushes_is_followed_to_its_end() -> None:
         "arch: {material: stone, shape: semicircular, span: 4, thickness: 0.5, width: 0.5, voussoirs: 9}",
     )
     _, case = case_of(text, "joints.dry.friction=0.8", "parameters.n=8", "load_cases.push.pushover.step=0.004")
-    curve = case.solution.curve
-    assert case.solution.curve_end is CurveEnd.NOTHING_LEFT
+    curve = case.solution.further.pushover.curve
+    assert case.solution.further.pushover.curve_end is CurveEnd.NOTHING_LEFT
     assert max(row.residual for row in curve) < 1e-4
     assert abs(energy_missing(curve)) < 5e-3

@@ -66,8 +66,8 @@ def test_live_work_is_friction_and_what_the_dead_load_gained(seed: int) -> None:
     """On random structures; what is missing is the work of gaps that close, of first order in the step."""
     case = pushed_case(random_deck(seed))
     assert case.status is Status.SOLVED
-    curve = case.solution.curve
-    assert len(curve) > 10 or case.solution.curve_end is CurveEnd.NOTHING_LEFT
+    curve = case.solution.further.pushover.curve
+    assert len(curve) > 10 or case.solution.further.pushover.curve_end is CurveEnd.NOTHING_LEFT
     assert abs(energy_missing(curve)) < 0.01
     assert max(row.residual for row in curve[1:]) < 1e-4  # as built joints are elastic
     assert np.diff([row.friction for row in curve]).min() > -1e-6 * abs(curve[-1].live_work)
@@ -80,7 +80,7 @@ def test_a_rigid_motion_of_everything_changes_nothing(seed: int) -> None:
     turned = text.replace("}\ncontacts", f", transform: [{{rotate: {{axis: [0, 0, 1], angle: 37}}}}, {item}\ncontacts")
     across = math.cos(math.radians(37)), math.sin(math.radians(37))
     turned = turned.replace("acceleration: [1, 0, 0]", f"acceleration: [{across[0]:.15f}, {across[1]:.15f}, 0]")
-    own, other = (columns(pushed_case(each).solution.curve) for each in (text, turned))
+    own, other = (columns(pushed_case(each).solution.further.pushover.curve) for each in (text, turned))
     assert turned.count("rotate") == 1
     assert other[0] == pytest.approx(own[0], rel=1e-5)
     assert other[1] == pytest.approx(own[1], rel=1e-5)
@@ -97,9 +97,9 @@ def test_glued_blocks_are_one() -> None:
         "load_cases: {push: {live: [{acceleration: [1, 0, 0]}], pushover: {step: 0.005}}}\n"
     )
     case = pushed_case(text)
-    moved, factors = columns(case.solution.curve)
+    moved, factors = columns(case.solution.further.pushover.curve)
     alpha, radius = math.atan(0.2), math.hypot(0.2, 1.0) / 2
-    assert case.solution.curve_end is CurveEnd.NOTHING_LEFT
+    assert case.solution.further.pushover.curve_end is CurveEnd.NOTHING_LEFT
     assert factors == pytest.approx(np.tan(np.arcsin(np.sin(alpha) - moved / radius)), abs=1e-5)
 
 
@@ -108,7 +108,7 @@ def test_the_thrust_of_an_arch_that_spreads_is_that_of_statics() -> None:
     """W x / z of a half as it lies, its hinges as far apart as the span has grown."""
     case = pushed_case(SPREADING)
     half, centroid = 3384.45, (0.42173913, 0.57826087)
-    rows = case.solution.curve
+    rows = case.solution.further.pushover.curve
     spread = np.array([row.displacement for row in rows])
     across = 1.0 + spread / 2
     up = np.sqrt(1.0 + 1.3**2 - across**2)
@@ -131,8 +131,8 @@ def test_a_support_is_followed_until_nothing_is_carried() -> None:
     """
     further = "load_cases.spreads.settlement.amount=3", "load_cases.spreads.settlement.step=0.02"
     case = pushed_case(SPREADING, *further, "joints.dry.friction=1")
-    assert case.solution.curve_end is CurveEnd.NOT_CARRIED
-    assert 0.9 < case.solution.curve[-1].displacement < 2.0 * math.hypot(1.0, 1.3) - 2.0
+    assert case.solution.further.pushover.curve_end is CurveEnd.NOT_CARRIED
+    assert 0.9 < case.solution.further.pushover.curve[-1].displacement < 2.0 * math.hypot(1.0, 1.3) - 2.0
 
 
 @pytest.mark.long
@@ -147,10 +147,10 @@ def test_what_falls_alone_is_left_out() -> None:
         "load_cases: {push: {live: [{acceleration: [-1, 0, 0]}], pushover: {step: 0.004, control: {on: tall}}}}\n"
     )
     case = pushed_case(text)
-    assert case.solution.curve[-1].debris == 1
-    assert case.solution.curve_end is CurveEnd.NOTHING_LEFT
+    assert case.solution.further.pushover.curve[-1].debris == 1
+    assert case.solution.further.pushover.curve_end is CurveEnd.NOTHING_LEFT
     alpha, radius = math.atan(0.2), math.hypot(0.2, 1.0) / 2
-    alone = [row for row in case.solution.curve if row.debris]
+    alone = [row for row in case.solution.further.pushover.curve if row.debris]
     moved, factors = columns(tuple(alone))
     assert len(alone) > 10
     assert factors == pytest.approx(np.tan(np.arcsin(np.sin(alpha) - moved / radius)), abs=1e-3)
@@ -168,11 +168,11 @@ def test_the_normal_is_that_of_the_face_stood_on() -> None:
     case = pushed_case(text)
     weight = 2000 * 2 * 0.5 * 0.3 * 9.81
     # about the edge of the left pier: W (0.5 cos + 0.15 sin) = R 1.5 cos + 0.6 R u, as its end slides on the right one
-    sunk = np.array([row.displacement for row in case.solution.curve])
+    sunk = np.array([row.displacement for row in case.solution.further.pushover.curve])
     turned = np.arcsin(sunk / 1.5)
     cos, sin = np.cos(turned), np.sin(turned)
     closed = weight * (0.5 * cos + 0.15 * sin) / (1.5 * cos + 0.6 * sunk)
-    reaction = np.array([row.reaction for row in case.solution.curve])
+    reaction = np.array([row.reaction for row in case.solution.further.pushover.curve])
     assert reaction == pytest.approx(closed, rel=3e-6)
 
 
@@ -188,7 +188,7 @@ def test_a_block_tips_on_a_narrow_base_as_on_a_wide_one(breadth: float) -> None:
         "    pushover: {step: 0.05, control: {on: cube, direction: [1, 0, 0]}}\n"
     )
     case = pushed_case(text)
-    assert case.solution.curve_end is CurveEnd.NOTHING_LEFT
+    assert case.solution.further.pushover.curve_end is CurveEnd.NOTHING_LEFT
     assert ultimate_displacement(case) == pytest.approx(0.5, rel=1e-3)
 
 
@@ -203,7 +203,7 @@ WALLS = (
 def test_a_control_point_that_does_not_move_is_said() -> None:
     push = "load_cases: {one: {live: [{acceleration: [1, 0, 0], on: a}], pushover: {step: 0.005, control: {on: b}}}}\n"
     solution = pushed_case(f"{WALLS}supports: [{{ground: {{z: 0}}}}]\n{push}").solution
-    assert not solution.curve
+    assert not solution.further.pushover.curve
     assert "the control point does not move" in solution.remarks[-1].words
 
 
@@ -211,12 +211,12 @@ def test_a_control_point_that_does_not_move_is_said() -> None:
 def test_blocks_that_meet_do_not_overlap() -> None:
     """A wall that rocks against its neighbour, and both as one from there on, or none where the neighbour is fixed."""
     push = "load_cases: {all: {live: [{acceleration: [1, 0, 0]}], pushover: {step: 0.005, control: {on: a}}}}\n"
-    free = pushed_case(f"{WALLS}supports: [{{ground: {{z: 0}}}}]\n{push}").solution
+    free = pushed_case(f"{WALLS}supports: [{{ground: {{z: 0}}}}]\n{push}").solution.further.pushover
     assert max(row.overlap for row in free.curve) < 1e-4
     assert max(row.load_factor for row in free.curve) > 1.5 * free.curve[0].load_factor
     assert abs(energy_missing(free.curve)) < 2e-3  # joints are pressed
     one = push.replace("[1, 0, 0]}", "[1, 0, 0], on: a}")
-    held = pushed_case(f"{WALLS}supports: [{{ground: {{z: 0}}}}, {{blocks: b}}]\n{one}").solution
+    held = pushed_case(f"{WALLS}supports: [{{ground: {{z: 0}}}}, {{blocks: b}}]\n{one}").solution.further.pushover
     assert held.curve_end is CurveEnd.BLOCKED
     assert max(row.load_factor for row in held.curve if row.displacement < 0.0099) <= held.curve[0].load_factor
     assert held.curve[-1].displacement < 0.0201  # its foot slides on while its top is held, and joints are pressed
@@ -232,8 +232,8 @@ def test_the_error_is_of_the_size_of_the_change_with_the_step() -> None:
         "supports: [{ground: {z: 0}}]\nload_cases:\n"
         "  push: {live: [{acceleration: [1, 0, 0]}], pushover: {step: 0.004, until: 0.04, error: true}}\n"
     )
-    coarse = pushed_case(text).solution.curve
-    fine = pushed_case(text, "load_cases.push.pushover.step=0.0005").solution.curve
+    coarse = pushed_case(text).solution.further.pushover.curve
+    fine = pushed_case(text, "load_cases.push.pushover.step=0.0005").solution.further.pushover.curve
     exact = np.interp([row.displacement for row in coarse], *columns(fine))
     missed = np.abs([row.load_factor for row in coarse] - exact)
     claimed = np.array([row.error for row in coarse])
@@ -254,7 +254,7 @@ def test_a_guided_slab_goes_along() -> None:
         "load_cases: {push: {live: [{acceleration: [1, 0, 0], on: block}], pushover: {step: 0.004, until: 0.1}}}\n"
     )
     solution = pushed_case(text).solution
-    moved, factors = columns(solution.curve)
+    moved, factors = columns(solution.further.pushover.curve)
     alpha, radius = math.atan(0.2), math.hypot(0.2, 1.0) / 2
     turned = alpha - np.arcsin(np.sin(alpha) - moved / radius)
     cos, sin = np.cos(turned), np.sin(turned)
@@ -276,7 +276,7 @@ def test_a_panel_held_at_its_head_bows_until_its_middle_is_out_by_its_thickness(
         "load_cases: {push: {live: [{acceleration: [1, 0, 0]}], pushover: {step: 0.002}}}\n"
     )
     case = pushed_case(text)
-    steps = case.solution.pushed
+    steps = case.solution.further.pushover.rows
     assert steps is not None
     turned = np.array([pose.rotation_vectors[0, 1] for pose in steps.poses])
     cos, sin = np.cos(turned), np.sin(turned)
@@ -297,8 +297,8 @@ def test_a_half_with_its_plane_of_symmetry_moves_as_the_whole() -> None:
     )
     item = "blocks: [{{wall: {{group: wall, material: stone, unit: [0.8, 0.3, 0.4], length: {}, courses: 4}}}}]\n"
     cut = "[{group: wall, course: 1, unit: 2}, {group: wall, course: 3, unit: 2}]"
-    whole = pushed_case(head + item.format(3.2)).solution
-    half = pushed_case(head + item.format(1.6) + f"symmetry: [{{x: 1.6, halves: {cut}}}]\n").solution
+    whole = pushed_case(head + item.format(3.2)).solution.further.pushover
+    half = pushed_case(head + item.format(1.6) + f"symmetry: [{{x: 1.6, halves: {cut}}}]\n").solution.further.pushover
     assert columns(half.curve)[0] == pytest.approx(columns(whole.curve)[0], rel=2e-3)
     assert columns(half.curve)[1] == pytest.approx(np.interp(columns(half.curve)[0], *columns(whole.curve)), rel=1e-4)
 
@@ -319,7 +319,7 @@ def test_fill_pushes_on_the_way_it_pushes_as_built() -> None:
     weight, push = -float(loads.dead_load[0, 2]), -float(model.ties.greatest[0])
     place = model.ties.places[0]
     x, _, z = model.blocks.centroids[0] - asked.dead_levers[0].reshape(3, 3)[:, 2] / weight  # of block and soil
-    for row in case.solution.curve:
+    for row in case.solution.further.pushover.curve:
         turned = np.linspace(0.0, 0.5, 50001)  # about the edge at the origin
         turn = float(np.interp(row.displacement, x - (x * np.cos(turned) - z * np.sin(turned)), turned))
         cos, sin = np.cos(turn), np.sin(turn)
@@ -338,6 +338,6 @@ def test_what_a_support_carries_along_loads_it_all_the_way() -> None:
         f"{HEAD}joints: {{dry: {{friction: 0.5}}}}\n{blocks}contacts: {{joint: dry}}\nsupports: [{{blocks: table}}]\n"
         f"load_cases: {{c: {{settlement: {sinks}}}}}\n"
     )
-    assert case.solution.curve_end is CurveEnd.REACHED
-    reactions = [row.reaction for row in case.solution.curve]
+    assert case.solution.further.pushover.curve_end is CurveEnd.REACHED
+    reactions = [row.reaction for row in case.solution.further.pushover.curve]
     assert reactions == pytest.approx([2000 * 9.81 * 0.125] * len(reactions), rel=1e-6)

@@ -33,10 +33,10 @@ fill: {f: {on: a, material: soil, level: 1.5, passive: {friction_angle: 30, mobi
 
 def test_a_wedge_that_slides_keeps_its_load_factor_to_the_end() -> None:
     _, case = case_of(WEDGE, "load_cases.c.pushover.until=0.02")
-    factors = [row.load_factor for row in case.solution.curve]
+    factors = [row.load_factor for row in case.solution.further.pushover.curve]
     assert factors == pytest.approx([13.55251] * len(factors), rel=1e-6)
-    assert case.solution.curve[-1].displacement == pytest.approx(0.02, rel=1e-6)
-    assert max(row.residual for row in case.solution.curve) < 1e-6
+    assert case.solution.further.pushover.curve[-1].displacement == pytest.approx(0.02, rel=1e-6)
+    assert max(row.residual for row in case.solution.further.pushover.curve) < 1e-6
 
 
 @pytest.mark.parametrize(
@@ -54,10 +54,10 @@ def test_where_a_curve_is_to_end_does_not_change_it(
         "load_cases: {c: {live: [{acceleration: [1, 0, 0]}], pushover: {step: 0.005, until: 0.04, error: false}}}\n"
         f"analysis: {{flow_rule: {flow}}}\n"
     )
-    whole = case_of(text)[1].solution.curve
+    whole = case_of(text)[1].solution.further.pushover.curve
     moved, factors = ([getattr(row, name) for row in whole] for name in ("displacement", "load_factor"))
     for until in (0.01, 0.02, 0.0213):
-        last = case_of(text, f"load_cases.c.pushover.until={until}")[1].solution.curve[-1]
+        last = case_of(text, f"load_cases.c.pushover.until={until}")[1].solution.further.pushover.curve[-1]
         assert last.displacement == pytest.approx(until, rel=1e-6)
         assert last.load_factor == pytest.approx(np.interp(until, moved, factors), rel=2e-3)
 
@@ -69,7 +69,7 @@ def test_a_row_that_is_changed_is_not_verified(what: str) -> None:
         line_of(WEDGE, "load_cases.c.pushover.until=0.02"),
         case_of(WEDGE, "load_cases.c.pushover.until=0.02"),
     )
-    rows, last = case.solution.pushed, -1
+    rows, last = case.solution.further.pushover.rows, -1
     assert rows is not None
     own = slice(int(rows.point_start[-2]), int(rows.point_start[-1]))
     points = {name: values.copy() for name, values in vars(rows.points).items()}
@@ -84,10 +84,9 @@ def test_a_row_that_is_changed_is_not_verified(what: str) -> None:
     else:
         points["history"][own, 1:] *= -1.0
     forged = replace(rows, shifts=shifts, load_factors=factors, points=RowPoints(**points))
-    solution = replace(case.solution, pushed=forged)
-    of_case = (line.assembly, case.load_case)
-    assert curve_of(*of_case, case.solution)[last].residual < 1e-5
-    assert curve_of(*of_case, solution)[last].residual > 1e-4
+    of_case = (line.assembly, case.load_case, case.solution)
+    assert curve_of(*of_case, rows)[last].residual < 1e-5
+    assert curve_of(*of_case, forged)[last].residual > 1e-4
 
 
 def test_figures_have_the_digits_that_their_error_leaves() -> None:

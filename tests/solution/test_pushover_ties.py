@@ -46,7 +46,7 @@ MOVED, FACTORS, LONGER = np.array([closed_form(turn) for turn in TURNS]).T
 def test_a_tie_that_yields_without_end_holds_a_wall_as_it_turns() -> None:
     """The tie pulls along its line as it lies then; energies add up, and what ties take is no drop."""
     _, case = case_of(DECK)
-    curve = case.solution.curve
+    curve = case.solution.further.pushover.curve
     found = np.array([[row.displacement, row.load_factor] for row in curve])
     assert len(curve) > 20
     assert found[:, 1] == pytest.approx(np.interp(found[:, 0], MOVED, FACTORS), abs=2e-5)
@@ -60,7 +60,7 @@ def test_a_tie_that_yields_without_end_holds_a_wall_as_it_turns() -> None:
 def test_a_tie_breaks_where_it_has_yielded_by_as_much_as_it_can(most: float) -> None:
     """From there on the curve is that of the wall alone."""
     _, case = case_of(DECK.replace("capacity:", f"breaks_at: {most}, capacity:"))
-    curve = case.solution.curve
+    curve = case.solution.further.pushover.curve
     first = next(row for row in curve if row.broken)
     longer = np.interp([first.displacement - 0.01, first.displacement], MOVED, LONGER) / 3.0
     assert longer[0] <= most + 2e-3
@@ -70,7 +70,7 @@ def test_a_tie_breaks_where_it_has_yielded_by_as_much_as_it_can(most: float) -> 
     turned = corner - np.arcsin(np.sin(corner) - alone[:, 0] / radius)
     # the first pose lies along the motion of joints that give way a little as the tie breaks
     assert alone[:, 1] == pytest.approx(np.tan(corner - turned), abs=6e-3)
-    assert case.solution.curve_end is CurveEnd.NOTHING_LEFT
+    assert case.solution.further.pushover.curve_end is CurveEnd.NOTHING_LEFT
 
 
 def test_a_tie_that_goes_slack_carries_nothing_until_it_is_as_long_again() -> None:
@@ -79,8 +79,8 @@ def test_a_tie_that_goes_slack_carries_nothing_until_it_is_as_long_again() -> No
     _, case = case_of(deck)
     assert case.solution.mechanics is not None
     assert case.solution.mechanics.load_factor == pytest.approx(0.2, rel=1e-6)
-    assert case.solution.curve[-1].tie_work == pytest.approx(0.0, abs=1e-3)
-    assert case.solution.curve[-1].displacement == pytest.approx(0.2, rel=1e-3)
+    assert case.solution.further.pushover.curve[-1].tie_work == pytest.approx(0.0, abs=1e-3)
+    assert case.solution.further.pushover.curve[-1].displacement == pytest.approx(0.2, rel=1e-3)
 
 
 SLIDING = (
@@ -101,7 +101,7 @@ load_cases: {push: {live: [{acceleration: [1, 0, 0]}], pushover: {step: 0.04, un
 def test_a_slack_tie_does_not_break_as_it_gets_as_long_again() -> None:
     """Under its tie a block slides by 0.8 m until that is as long as at first, and by 0.874 m until it breaks."""
     _, case = case_of(SLIDING)
-    moved, broken = np.array([[row.displacement, row.broken] for row in case.solution.curve]).T
+    moved, broken = np.array([[row.displacement, row.broken] for row in case.solution.further.pushover.curve]).T
     length = np.sqrt(16 + (moved - 0.4) ** 2)
     assert list(broken) == list((moved > 0.4) & (length > 1.002 * np.hypot(4, 0.4)))
 
@@ -112,7 +112,7 @@ def test_what_is_brittle_breaks_in_either_sense(acts: str, ends: tuple[float, fl
     deck = DECK.replace("[[0, 0.5", f"[[{ends[0]}, 0.5").replace("[-3, 0.5", f"[{ends[1]}, 0.5")
     deck = deck.replace("capacity:", f"acts: {acts}, breaks_at: 0, capacity:").replace("0.01}", "0.02, steps: 3}")
     _, case = case_of(deck)
-    first, *others = case.solution.curve
+    first, *others = case.solution.further.pushover.curve
     assert first.load_factor > 0.25
     alone = [row.broken for row in others if row.displacement > 1e-3]
     assert alone == [1] * len(alone)
@@ -133,7 +133,7 @@ def test_a_strip_comes_off_as_it_slips_unless_the_deck_says_otherwise() -> None:
     """Held it counts with F b = W b/2 as the wall turns; else the wall is alone from there on."""
     for more, held in (("", 0.0), ("breaks_at: never, ", 1.0)):
         _, case = case_of(STRIP.replace("capacity:", f"{more}capacity:"), "load_cases.push.pushover.steps=3")
-        first, *rows = case.solution.curve
+        first, *rows = case.solution.further.pushover.curve
         whole = 0.2 + 3000 * 0.4 / WEIGHT
         if held:
             assert first.load_factor == pytest.approx(whole, rel=1e-5)

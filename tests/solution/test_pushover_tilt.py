@@ -28,7 +28,7 @@ WEIGHT = 2000 * 0.2 * 0.5 * 9.81
 
 def curve_of(case: CaseResult) -> tuple[np.ndarray, np.ndarray]:
     """Displacements and angles in radians."""
-    rows = case.solution.curve
+    rows = case.solution.further.pushover.curve
     return np.array([row.displacement for row in rows]), np.radians([row.angle for row in rows])
 
 
@@ -46,7 +46,7 @@ def test_a_block_that_has_turned_on_the_table_needs_so_much_less_of_an_angle(hei
     moved, angles = curve_of(case)
     assert len(moved) == 11
     assert angles == pytest.approx(math.atan(0.1 / height) - turned(moved, height), abs=2e-6)
-    assert case.solution.curve_end is CurveEnd.NOTHING_LEFT
+    assert case.solution.further.pushover.curve_end is CurveEnd.NOTHING_LEFT
     assert moved[-1] == pytest.approx(0.1, rel=1e-4)
 
 
@@ -71,12 +71,12 @@ def test_loads_that_do_not_turn_keep_their_direction_in_the_structure() -> None:
     cos, sin = np.cos(turned(moved)), np.sin(turned(moved))
     across, up = 0.1 * cos - 0.5 * sin, 0.5 * cos + 0.1 * sin
     assert across * np.cos(angles) - up * np.sin(angles) == pytest.approx(0.05 * up, abs=2e-6)
-    assert case.solution.curve_end is CurveEnd.NOTHING_LEFT
+    assert case.solution.further.pushover.curve_end is CurveEnd.NOTHING_LEFT
 
 
 def test_rows_of_another_angle_are_out_of_balance() -> None:
     assembly, (case,) = cases_of(DECK, "parameters.until=0.03")
-    rows = case.solution.pushed
+    rows = case.solution.further.pushover.rows
     assert rows is not None
     forged = replace(rows, load_factors=rows.load_factors + math.radians(0.1))
     good, bad = (row_residuals(assembly, case.load_case, "non_associative", each)[-1] for each in (rows, forged))

@@ -55,7 +55,7 @@ def test_the_structure_is_pushed_at_the_worst_position_where_the_load_stands(fol
     """F (2 cos + 1.4 sin) = W (2 cos - 0.2 sin) as the end under the load sinks; 2 F for both where F turns, too."""
     (case,) = pushed(solved(tmp_path, f"load_cases.crane.live.0.follows={str(follows).lower()}")[1])
     assert case.load_case.name == "crane@1"
-    moved, factors = np.array([[row.displacement, row.load_factor] for row in case.solution.curve]).T
+    moved, factors = np.array([[row.displacement, row.load_factor] for row in case.solution.further.pushover.curve]).T
     turns = np.linspace(0.0, 0.3, 3001)
     turned = np.interp(moved, 2.0 * np.sin(turns) + 1.4 * (1.0 - np.cos(turns)), turns)
     cos, sin = np.cos(turned), np.sin(turned)
@@ -67,7 +67,7 @@ def test_the_structure_is_pushed_at_the_worst_position_where_the_load_stands(fol
 def test_a_position_can_be_asked_for(tmp_path: Path) -> None:
     (case,) = pushed(solved(tmp_path, "load_cases.crane.pushover.position=4", "load_cases.crane.pushover.steps=2")[1])
     assert case.load_case.name == "crane@4"
-    assert len(case.solution.curve) == 3
+    assert len(case.solution.further.pushover.curve) == 3
 
 
 def test_another_position_than_the_worst_is_no_answer(tmp_path: Path) -> None:

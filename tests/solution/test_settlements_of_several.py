@@ -59,13 +59,13 @@ def test_without_amounts_they_go_as_far_as_each_other() -> None:
     """Then the beam only goes down: both carry it all the way."""
     case = settling("", "")
     assert reaction_of(case) == pytest.approx(WEIGHT, rel=1e-6)
-    assert not case.solution.curve
+    assert not case.solution.further.pushover.curve
 
 
 def test_they_are_followed_by_their_amounts() -> None:
     """The right pier sinks against the left one by half of its own way: R = (R_left + 2 R_right) / 2."""
     case = settling(", amount: 0.1", ", amount: 0.2, step: 0.02, error: false")
-    rows = case.solution.curve
+    rows = case.solution.further.pushover.curve
     sunk = np.array([row.displacement for row in rows]) / 2
     turned = np.arcsin(sunk / 1.5)
     cos, sin = np.cos(turned), np.sin(turned)

@@ -62,18 +62,3 @@ def test_a_lock_without_forces_that_prove_it_is_not_verified(monkeypatch: pytest
     assert solution.reason == deciding_part.LOCK_NOT_PROVED
     checks = verify(line.assembly, line.load_case, claim(None, Status.UNBOUNDED))
     assert checks.failures == ("no forces are given that carry every multiple of the live load",)
-
-
-def test_ranges_of_forces_are_left_out_of_parts_of_which_nothing_is_known(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The first block tips at 0.5; of the other one, which would slide at 0.9, no forces are found there."""
-    other = "  - box: {group: other, material: stone, min: [9, 0, 0], max: [10, 1, 1]}\n"
-    line = line_of(BLOCK.replace("supports:", other + "supports:"), "parameters.mu=0.9", "analysis.force_ranges=true")
-    known = solution_of(line).force_ranges
-    assert known is not None
-    assert np.isfinite(known).all()
-    monkeypatch.setattr(deciding_part, "at_rest", lambda *arguments: None)
-    ranges = solution_of(line).force_ranges
-    assert ranges is not None
-    others = (line.contacts.bodies == 1).any(axis=1)
-    assert others.sum() == 1
-    assert np.isnan(ranges).all(axis=1).tolist() == others.tolist()

@@ -94,9 +94,6 @@ class AnalysisSection(Section):
         + set_by_accuracy("standing")
         + "; always true for flow other than associative, whose load factor depends on it",
     )
-    force_ranges: Switch = Field(
-        False, description="how far the normal force of each interface can range at the load factor"
-    )
     sensitivity: Sensitivity = Field(
         False,
         description="how much the associative load factor changes with parameters. true: friction and strengths of "
@@ -161,8 +158,6 @@ def convex_contact_model(analysis: AnalysisSection) -> Iterator[Finding]:
     if analysis.solver == "mbla":
         words = "applies to contact_model: concave only, whose cones have three dimensions: use auto"
         yield Finding("key-of-another-choice", words, "solver")
-    if analysis.force_ranges:
-        yield Finding("key-of-another-choice", "applies to contact_model: concave only: use false", "force_ranges")
 
 
 Applies = Callable[[AnalysisSection], bool]

@@ -122,10 +122,5 @@ class ReductionSwitches:
 
 
 def allowed_reductions(analysis: AnalysisSection) -> ReductionSwitches:
-    """Switches for ``reduce_program``.
-
-    Mirror symmetry is not used for the range of forces, which is wider than that of symmetric forces. For that range
-    the points that cannot matter for the load factor stay too: their interfaces would have no forces of their own.
-    """
-    ranges = analysis.force_ranges
-    return ReductionSwitches(analysis.reductions, mirror=not ranges, points=not ranges)
+    """Switches for ``reduce_program``."""
+    return ReductionSwitches(analysis.reductions)

@@ -171,7 +171,7 @@ def _doubts(rows: _Rows, case: CaseResult, mechanism: KinematicBlocks, factor: _
             f"alpha_0 is by the least load factor that was found, {factor.least:.6g}; kinematic blocks are those of "
         )
         words += f"the state shown, at {factor.shown:.6g}"
-        rows.doubt(words + (", from which the capacity curve starts" if case.solution.curve else ""))
+        rows.doubt(words + (", from which the capacity curve starts" if case.solution.further.pushover.curve else ""))
     if not mechanism.in_plane:
         rows.doubt("the mechanism moves in space, where the code limits itself to those parallel to one vertical plane")
     if mechanism.explained < 1.0:
@@ -273,7 +273,7 @@ def _why_no_displacement(case: CaseResult, mechanism: KinematicBlocks) -> str:
     """What keeps the curve of a pushover from a verdict, in words; empty where nothing does."""
     from mbla.solution.pushover.curve import dropped  # late, as few load cases are pushed
 
-    curve = case.solution.curve
+    curve = case.solution.further.pushover.curve
     if math.isnan(ultimate_displacement(case)):
         return "the pushover did not come to where the load factor is nothing"
     if dropped(curve):
@@ -288,7 +288,7 @@ def _why_no_displacement(case: CaseResult, mechanism: KinematicBlocks) -> str:
 def _by_displacement(rows: _Rows, section: SpectrumSection, case: CaseResult, capacity: _Capacity) -> float:
     """The ground acceleration, g, whose demand is the displacement that a limit state allows; nan beyond a table."""
     state, mechanism, g = rows.state, capacity.mechanism, rows.units.standard_gravity
-    curve, damping = case.solution.curve, codes.DAMPING[state]
+    curve, damping = case.solution.further.pushover.curve, codes.DAMPING[state]
     scale = codes.spectral_displacement(mechanism.weights, mechanism.delta, mechanism.control)
     d_0 = scale * ultimate_displacement(case)
     d = codes.SHARES[state] * d_0

@@ -107,7 +107,7 @@ def moved_points(blocks: Blocks, motion: FloatArray, owners: IntArray, points: F
 
 def pushed_motions(case: CaseResult) -> list[FloatArray]:
     """Twist of each block from where it was built to where it is at each step of a pushover, (n_blocks, 6) each."""
-    steps = case.solution.pushed
+    steps = case.solution.further.pushover.rows
     found = []
     for pose in steps.poses if steps is not None else ():
         turned = pose.rotation_vectors

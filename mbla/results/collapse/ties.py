@@ -113,7 +113,7 @@ def _states(model: Model, mechanics: Mechanics | None) -> list[TieState]:
 
 def brittle_remarks(model: Model, solution: Solution) -> tuple[Message, ...]:
     """A remark where several ties yield together of which some break as soon as they do."""
-    if solution.mechanics is None or not len(model.ties) or solution.pushed is not None:
+    if solution.mechanics is None or not len(model.ties) or solution.further.pushover.rows is not None:
         return ()
     rows = tie_rows(model, solution.mechanics)
     yielding = [number for number, row in enumerate(rows) if row.state is TieState.YIELDS]

@@ -15,13 +15,15 @@ from mbla.program.reductions.steps import REDUCTIONS
 from mbla.results.hdf5.content import HISTORY, MOTIONS
 from mbla.results.record.quantity import ANSWERS, stored
 from mbla.results.results import CaseResult
+from mbla.solution.further.further import Further
+from mbla.solution.further.geometric_safety.geometric_safety import GeometricSafety
+from mbla.solution.further.sensitivity.slopes import Side, Slope
 from mbla.solution.pushover.pushed import CurveEnd, CurveRow
+from mbla.solution.pushover.pushover import NOT_PUSHED, Pushover
 from mbla.solution.pushover.record import PushedRows, RowPoints
-from mbla.solution.sensitivity.slopes import Side, Slope
 from mbla.solution.solution import (
     Checks,
     ContactMode,
-    GeometricSafety,
     Mechanics,
     ModelSize,
     Solution,
@@ -56,10 +58,11 @@ def case_from(load_case: LoadCase, get: dict[str, Any]) -> CaseResult:
         "size": _size(get),
         "reductions": _reductions(get),
         **{name: _records(kind, get, name) for name, kind in HISTORY.items()},
-        "curve_end": CurveEnd(get.get("curve_end", "")),
-        **_pushed(get),
-        "geometric_safety": _geometric_safety(get),
-        "sensitivity": _records(Slope, get, "sensitivity") if "sensitivity/parameter" in get else (),
+        "further": Further(
+            pushover=_pushover(get),
+            sensitivity=_records(Slope, get, "sensitivity") if "sensitivity/parameter" in get else (),
+            geometric_safety=_geometric_safety(get),
+        ),
     }
     checks = held(Checks, "cases/*", get) | {"failures": _messages(get, "failures")}
     return CaseResult(load_case, Solution(**own, **answers), Checks(**checks), Status(get["status"]))
@@ -69,10 +72,10 @@ ENERGIES = ("live_work", "friction", "tie_work", "crushing", "potential")
 """Columns of the rows of a pushover, in the order of their record."""
 
 
-def _pushed(get: dict[str, Any]) -> dict[str, Any]:
-    """Rows of a pushover and what they follow from; nothing where there is none."""
+def _pushover(get: dict[str, Any]) -> Pushover:
+    """A pushover with what its rows follow from."""
     if "curve/step" not in get:
-        return {}
+        return NOT_PUSHED
     points = RowPoints(
         bodies=get["pushed/bodies"],
         host=get["pushed/host"],
@@ -101,7 +104,8 @@ def _pushed(get: dict[str, Any]) -> dict[str, Any]:
         raise ValueError("rows of a pushover")
     if (np.diff(start) < 0).any() or start[1] != 0:
         raise ValueError("points of a pushover")
-    return {"curve": _records(CurveRow, get, "curve"), "pushed": rows}
+    own = held(Pushover, "cases/*", get) | {"curve_end": CurveEnd(get["curve_end"])}
+    return Pushover(**own, curve=_records(CurveRow, get, "curve"), rows=rows)
 
 
 def _geometric_safety(get: dict[str, Any]) -> GeometricSafety | None:

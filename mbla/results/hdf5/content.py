@@ -23,12 +23,14 @@ from mbla.results.hdf5.layout import FILETYPE, VERSION, Content, fields_of
 from mbla.results.record.columns import names_of, numbers_of
 from mbla.results.record.quantity import ANSWERS, stored
 from mbla.results.results import CaseResult, Results
+from mbla.solution.further.further import Further
+from mbla.solution.further.geometric_safety.geometric_safety import GeometricSafety
+from mbla.solution.further.sensitivity.slopes import Slope
 from mbla.solution.pushover.pushed import CurveRow
+from mbla.solution.pushover.pushover import Pushover
 from mbla.solution.pushover.record import PushedRows
-from mbla.solution.sensitivity.slopes import Slope
 from mbla.solution.solution import (
     Checks,
-    GeometricSafety,
     IterationRecord,
     Mechanics,
     ModelSize,
@@ -243,16 +245,6 @@ def case_content(assembly: Assembly, case: CaseResult) -> Content:
     }
     for group, kind in HISTORY.items():
         content |= _columns(group, kind, getattr(solution, group))
-    if solution.pushed is not None:
-        content |= _columns("curve", CurveRow, solution.curve) | _below("pushed", _pushed(solution.pushed))
-    else:
-        for name in ("curve_end", "curve_end_error", "curve_last_error"):
-            del content[name]
-    if solution.sensitivity:
-        content |= _columns("sensitivity", Slope, solution.sensitivity)
-    if solution.geometric_safety is not None:
-        held = _held(solution.geometric_safety, GeometricSafety, "cases/*/geometric_safety")
-        content |= _below("geometric_safety", held)
     assessment = assessment_of(assembly, case)
     if assessment is not None:
         content |= _columns("assessment", Figure, assessment.figures)
@@ -265,7 +257,21 @@ def case_content(assembly: Assembly, case: CaseResult) -> Content:
             residual = residual_of(assembly, case.load_case, solution, part)
             own = _answer(mechanics) | {"residual": residual}
             content |= {f"{group}/{name}".lstrip("/"): value for name, value in own.items()}
-    return content | _collapse(assembly, case) | _further(solution)
+    return content | _collapse(assembly, case) | _of_solution(solution) | _further(solution.further)
+
+
+def _further(further: Further) -> Content:
+    """What was asked besides, as far as it was found."""
+    content: Content = {}
+    pushover, safety = further.pushover, further.geometric_safety
+    if pushover.rows is not None:
+        content |= _held(pushover, Pushover, "cases/*") | _columns("curve", CurveRow, pushover.curve)
+        content |= _below("pushed", _pushed(pushover.rows))
+    if further.sensitivity:
+        content |= _columns("sensitivity", Slope, further.sensitivity)
+    if safety is not None:
+        content |= _below("geometric_safety", _held(safety, GeometricSafety, "cases/*/geometric_safety"))
+    return content
 
 
 def _pushed(rows: PushedRows) -> Content:
@@ -333,7 +339,8 @@ def associative_is_own(case: CaseResult) -> bool:
     return solution.flow_rule == "associative" and solution.associative is solution.mechanics
 
 
-def _further(solution: Solution) -> Content:
+def _of_solution(solution: Solution) -> Content:
+    """What a solution has in groups of its own."""
     content = _motions("certificate_", solution.certificate_motions)
     if solution.level_lock is not None:
         content["level/lock"] = solution.level_lock

@@ -21,7 +21,7 @@ Value: TypeAlias = "np.typing.NDArray[np.generic] | str | Sequence[Any] | float 
 Content: TypeAlias = dict[str, Value]
 
 FILETYPE = "mbla results"
-VERSION = 9
+VERSION = 10
 """raised by one with every change that an older reader would misread"""
 
 ATTRIBUTES = {

@@ -292,7 +292,7 @@ def _read_attributes(file: h5py.File, path: Path) -> dict[str, str | int]:
 
 def _read_content(file: h5py.File, file_bytes: int) -> Content:
     content: Content = {}
-    sizes: dict[str, int] = {"axis": 3, "direction": 3, "component": 6, "pair": 2, "end": 2, "unit": 3}
+    sizes: dict[str, int] = {"axis": 3, "direction": 3, "component": 6, "pair": 2, "unit": 3}
     cases = strings(_dataset(file, "model/load_cases", file_bytes))
     parts: dict[str, set[bool]] = {}
     fields = fields_of(cases)

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from mbla.arrays import FloatArray, IntArray
+from mbla.arrays import FloatArray
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import LoadCase, Model
 from mbla.results.collapse.force_freedom import Enough, ForceFreedom
-from mbla.results.collapse.interface_modes import sum_by_interface
 from mbla.results.collapse.mechanics import (
     Work,
     group_reactions,
@@ -20,9 +19,6 @@ from mbla.results.listing.text import MOST_ROWS, counted, long_table, number, se
 from mbla.results.outcome import result_of
 from mbla.results.results import CaseResult
 from mbla.solution.solution import Mechanics
-
-UNIQUE = 1e-6
-"""Ends of a range closer than this, over the largest force, are one figure: the accuracy to which both are found."""
 
 
 def reaction_lines(model: Model, contacts: Contacts, load_case: LoadCase, mechanics: Mechanics) -> list[str]:
@@ -74,34 +70,14 @@ def lock_lines(model: Model, contacts: Contacts, lock: FloatArray) -> list[str]:
         f"Locked: these forces, within the strength of the joints, balance the live load alone, so that any multiple "
         f"of it is carried; {counted(loaded, 'interface')} take part, the largest:"
     )
-    return _table(model, contacts, says, {"normal": normal[order], "shear": shear[order]}, order, loaded)
-
-
-def force_range_lines(model: Model, contacts: Contacts, mechanics: Mechanics, ranges: FloatArray) -> list[str]:
-    """How far normal forces can range at the load factor, the widest ranges first.
-
-    ranges : (n_interfaces, 2) least and greatest [N], compression positive; inf where unlimited, nan where not found
-    """
-    found = sum_by_interface(contacts, mechanics.contact_forces[:, 0])
-    widths = ranges[:, 1] - ranges[:, 0]
-    order = np.argsort(-widths, kind="stable")[:MOST_ROWS]
-    unique = int(np.sum(np.isfinite(widths) & (widths <= UNIQUE * np.abs(ranges).max(axis=1))))
-    says = f"Normal forces that are possible at this load factor; {unique} of {len(contacts)} are unique. The widest:"
-    forces = {"least": ranges[order, 0], "greatest": ranges[order, 1], "found": found[order]}
-    return _table(model, contacts, says, forces, order, len(contacts))
-
-
-def _table(
-    model: Model, contacts: Contacts, says: str, forces: dict[str, FloatArray], rows: IntArray, total: int
-) -> list[str]:
-    """A sentence and a table of interfaces, (n,) of ``total``, with forces in columns, (n,) each [N]."""
-    size = float(np.abs(model.blocks.vertices).max(initial=0.0))
-    lines = []
-    for place, (a, b), *values in zip(contacts.centroids[rows], contacts.bodies[rows], *forces.values(), strict=True):
-        texts = ["unlimited" if np.isinf(value) else number(value) for value in values]
-        lines.append([f"{model.body_name(int(a))}/{model.body_name(int(b))}", vector(place, size), *texts])
-    head = ["interface", f"at [{model.units.length}]", *(f"{name} [{model.units.force}]" for name in forces)]
-    return ["", *sentence(says), *long_table(head, lines, total, left=2)[1:]]
+    size, lines = float(np.abs(model.blocks.vertices).max(initial=0.0)), []
+    for row in order:
+        a, b = contacts.bodies[row]
+        between = f"{model.body_name(int(a))}/{model.body_name(int(b))}"
+        lines.append([between, vector(contacts.centroids[row], size), number(normal[row]), number(shear[row])])
+    force = model.units.force
+    head = ["interface", f"at [{model.units.length}]", f"normal [{force}]", f"shear [{force}]"]
+    return ["", *sentence(says), *long_table(head, lines, loaded, left=2)[1:]]
 
 
 # --- What of a structure counts for its load factor, and how unique its forces are, in words ------------------------
@@ -120,7 +96,7 @@ def enough_lines(case: CaseResult, enough: Enough) -> list[str]:
 
 
 def freedom_lines(contacts: Contacts, case: CaseResult, freedom: ForceFreedom | str) -> list[str]:
-    """Whether the forces are unique, or why that is not known; the option that gives their ranges if not taken."""
+    """Whether the forces are unique, or why that is not known; what gives the range of one of them."""
     if result_of(case) is None or not len(contacts):
         return []
     if isinstance(freedom, str):
@@ -130,8 +106,8 @@ def freedom_lines(contacts: Contacts, case: CaseResult, freedom: ForceFreedom | 
             f"Degree of static indeterminacy at this load factor, in this mechanism: at most {freedom.degree}; the "
             f"resultants of {int(freedom.determined.sum())} of {counted(len(contacts), 'interface')} are unique."
         )
-    can_ask = case.solution.force_ranges is None and case.solution.contact_model == "concave"
-    return sentence(text + " For ranges of forces: analysis.force_ranges: true." * can_ask)
+    ask = " For the least and the greatest value of a force: a load case with objective."
+    return sentence(text + ask * (case.load_case.objective is None))
 
 
 # --- Where the power of a mechanism goes ----------------------------------------------------------------------------

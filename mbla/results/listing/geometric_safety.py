@@ -14,7 +14,7 @@ def geometric_safety_lines(case: CaseResult) -> list[str]:
 
     It says that some forces carry the dead load, no more than associative flow does: what standing adds goes with it.
     """
-    found = case.solution.geometric_safety
+    found = case.solution.further.geometric_safety
     if found is None:
         return []
     says = f"Geometric factor of safety of the dead load, all joints shrunk about their middles: {number(found.factor)}"

@@ -19,7 +19,7 @@ NOT_FOLLOWED = "that the rows of a pushover are those of its way was not checked
 def pushovers_words(results: Results) -> tuple[str, ...]:
     """Sentences on the pushovers that a verification followed anew, or that it did not."""
     if results.pushovers_again is None:
-        return (NOT_FOLLOWED,) if any(case.solution.pushed is not None for case in results.cases) else ()
+        return (NOT_FOLLOWED,) if any(case.solution.further.pushover.rows is not None for case in results.cases) else ()
     cases = {case.load_case.name: case.load_case for case in results.cases}
     return tuple(
         f"{again.case}: {pushover_words(results.model, cases[again.case], again)}"

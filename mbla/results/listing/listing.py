@@ -22,7 +22,6 @@ from mbla.results.listing.assessment_words import assessment_lines, code_verdict
 from mbla.results.listing.figures import figures, path_lines, program_lines
 from mbla.results.listing.forces import (
     enough_lines,
-    force_range_lines,
     freedom_lines,
     group_reaction_lines,
     lock_lines,
@@ -84,9 +83,6 @@ def case_sections(assembly: Assembly, case: CaseResult) -> list[Section]:
         reactions += freedom_lines(contacts, case, freedom)
         sections += [Section("Work", ["", *work]), Section("Reactions", reactions)]
         sections.append(Section(tie_title(model), tie_force_lines(model, mechanics)))
-        if solution.force_ranges is not None:
-            ranges = force_range_lines(model, contacts, mechanics, solution.force_ranges)
-            sections.append(Section("Range of normal forces", ranges))
     elif mechanics is None and solution.lock is not None:
         sections.append(Section("Locking forces", lock_lines(model, contacts, solution.lock[: len(contacts.points)])))
     sections += [

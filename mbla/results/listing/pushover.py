@@ -24,13 +24,19 @@ NOTABLE_MISS = 0.02
 
 def curve_words(model: Model, case: CaseResult) -> str:
     """Greatest load factor, where it ends, and how well that is known; empty without a pushover."""
-    curve, length = case.solution.curve, model.units.length
+    curve, length = case.solution.further.pushover.curve, model.units.length
     if not curve:
         return ""
-    last, words, end = curve[-1], case.solution.curve_end.value, case.solution.curve_end_error
+    last, words, end = (
+        curve[-1],
+        case.solution.further.pushover.curve_end.value,
+        case.solution.further.pushover.curve_end_error,
+    )
     if case.load_case.settlement is not None:
         force = model.units.force
-        reaction = within(last.reaction, case.solution.curve_last_error * case.load_case.settlement.unit)
+        reaction = within(
+            last.reaction, case.solution.further.pushover.curve_last_error * case.load_case.settlement.unit
+        )
         says = f"Followed over {counted(len(curve) - 1, 'step')}: a reaction of {reaction} {force} where "
         says += f"the support has moved by {within(last.displacement, end)} {length}, where {words}"
     else:
@@ -40,7 +46,7 @@ def curve_words(model: Model, case: CaseResult) -> str:
             f"Pushover of {counted(len(curve) - 1, 'step')}: at most {highest} at {number(top.displacement)} {length}; "
         )
         ultimate = ultimate_displacement(case, sure=False)
-        if case.solution.curve_end is CurveEnd.NOTHING_LEFT:
+        if case.solution.further.pushover.curve_end is CurveEnd.NOTHING_LEFT:
             says += f"nothing at {within(ultimate, end)} {length}"
         else:
             says += f"nothing at {number(ultimate)} {length}; " if last.load_factor < 0.0 else ""
@@ -80,7 +86,7 @@ def jumps_words(curve: Sequence[CurveRow], length: str) -> str:
 
 def stiffness_words(model: Model, case: CaseResult) -> str:
     """How stiff the joints of a pushover are; empty without one."""
-    rows, units = case.solution.pushed, model.units
+    rows, units = case.solution.further.pushover.rows, model.units
     if rows is None:
         return ""
     across, along = rows.stiffness
@@ -101,20 +107,20 @@ def row_words(model: Model, load_case: LoadCase, row: CurveRow) -> str:
 
 def curve_verdict(case: CaseResult, length: str) -> str:
     """How well the steps of a pushover meet the joint law, as code that did not solve them finds."""
-    residuals = [row.residual for row in case.solution.curve[1:]]
+    residuals = [row.residual for row in case.solution.further.pushover.curve[1:]]
     rough = sum(not residual <= SOLVED_RESIDUAL for residual in residuals)
     worst = curve_residual(case)
     if not residuals:
         return "No step could be made."
-    if not rough and (share := step_dependence(case.load_case, case.solution)) > STEP_DEPENDENCE:
+    if not rough and (share := step_dependence(case.load_case, case.solution.further.pushover)) > STEP_DEPENDENCE:
         says = f"Approximate: every step meets equilibrium and the joint law to {worst:.1g}, but figures depend on the "
         return f"{says}size of the steps: with twice the size they change by up to {share:.2g} of the greatest."
     if not rough:
-        overlap = max(row.overlap for row in case.solution.curve)
+        overlap = max(row.overlap for row in case.solution.further.pushover.curve)
         says = f"Verified: every step meets equilibrium and the joint law to {worst:.1g}"
-        crushes = any(row.crushing for row in case.solution.curve)
+        crushes = any(row.crushing for row in case.solution.further.pushover.curve)
         says += f", {'points are crushed' if crushes else 'blocks overlap'} by {overlap:.1g} {length} at most"
-        missing = abs(energy_missing(case.solution.curve, _small_energy(case)))
+        missing = abs(energy_missing(case.solution.further.pushover.curve, _small_energy(case)))
         return (
             f"{says}." if missing < NOTABLE_MISS else f"{says}; {missing:.2g} of the energy is lost where blocks drop."
         )
@@ -125,7 +131,7 @@ def curve_verdict(case: CaseResult, length: str) -> str:
 
 def curve_lines(model: Model, case: CaseResult) -> list[str]:
     """The capacity curve: a sentence, and a table of steps evenly chosen; nothing without a pushover."""
-    curve, units = case.solution.curve, model.units
+    curve, units = case.solution.further.pushover.curve, model.units
     if not curve:
         return []
     settlement, tied, crushed = case.load_case.settlement, bool(len(model.ties)), any(row.crushing for row in curve)
@@ -171,7 +177,7 @@ SMALL_ENERGY = 1e-6
 
 def _small_energy(case: CaseResult) -> float:
     dead = float(np.abs(case.load_case.dead_load[:, :3]).sum())
-    return SMALL_ENERGY * dead * abs(case.solution.curve[-1].displacement)
+    return SMALL_ENERGY * dead * abs(case.solution.further.pushover.curve[-1].displacement)
 
 
 def energy_missing(curve: Sequence[CurveRow], least: float = 0.0) -> float:

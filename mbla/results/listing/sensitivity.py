@@ -7,7 +7,7 @@ import math
 from mbla.results.listing.text import number, sentence, table
 from mbla.results.outcome import result_of
 from mbla.results.results import CaseResult
-from mbla.solution.sensitivity.slopes import Side, Slope
+from mbla.solution.further.sensitivity.slopes import Side, Slope
 from mbla.solution.thresholds import SOLVED_RESIDUAL
 
 OF_ASSOCIATIVE = "Slopes by the parameters of the deck are of the associative load factor, {}"
@@ -29,7 +29,7 @@ ROUNDING = 1e-7
 
 def sensitivity_lines(case: CaseResult) -> list[str]:
     """A row for each parameter that the deck asks for; nothing where it asks for none."""
-    slopes, associative = case.solution.sensitivity, case.solution.associative
+    slopes, associative = case.solution.further.sensitivity, case.solution.associative
     if not slopes or associative is None:
         return []
     rows = [

@@ -137,9 +137,9 @@ class Case:
         one gives way) and load factor (its reaction; of a tilting table the angle in degrees), (n_steps + 1, 2); None
         where none was asked for or made.
 
-        ``record.solution.curve`` has all that is known of each step, ``curve_end`` why it ends.
+        ``record.solution.further.pushover.curve`` has all that is known of each step, ``curve_end`` why it ends.
         """
-        rows = self.record.solution.curve
+        rows = self.record.solution.further.pushover.curve
         return np.array([[row.displacement, row.answer] for row in rows]) if rows else None
 
     @property

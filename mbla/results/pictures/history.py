@@ -130,7 +130,7 @@ def _draw_path(page: Page, axes: Any, scene: Scene) -> None:
 
 def draw_curve(path: Path, scene: Scene, options: PictureOptions) -> None:
     """Write the capacity curve of a pushover, load factor over displacement; raises as ``open_diagrams`` does."""
-    curve, words = scene.case.solution.curve, scene.words_of("curve")[:2]
+    curve, words = scene.case.solution.further.pushover.curve, scene.words_of("curve")[:2]
     words.append(curve_words(scene.model, scene.case) or "no curve to draw: the load case has no pushover")
     sure = np.array([not row.step or row.residual <= SOLVED_RESIDUAL for row in curve])  # the first is the case's own
     mark = "" if sure.all() else f"NOT VERIFIED: {int((~sure).sum())} of {len(sure)} steps, hollow"

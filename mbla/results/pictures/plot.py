@@ -62,7 +62,7 @@ def pictures_of(results: Results, cases: Sequence[CaseResult], options: PictureO
     pictures = [PictureFile("_model", of(cases[0], "model"))] if "model" in options.kinds else []
     names = _mechanism_names([case.load_case.name for case in cases])
     for case in cases:
-        drawn = {"model"} if case.solution.curve or len(options.kinds) == 1 else {"model", "curve"}
+        drawn = {"model"} if case.solution.further.pushover.curve or len(options.kinds) == 1 else {"model", "curve"}
         for kind in (kind for kind in options.kinds if kind not in drawn):
             name = names[case.load_case.name] if kind == "mechanism" else f"_{case.load_case.name}_{kind}"
             pictures.append(PictureFile(name, of(case, kind)))
@@ -100,7 +100,7 @@ def _films(results: Results, cases: Sequence[CaseResult], options: PictureOption
         raise UsageError(
             "no-mechanism", f"--animate {options.animate}: there is no mechanism in {names}, so nothing moves"
         )
-    pushed = ["_curve" if "curve" in options.kinds and each.solution.curve else "" for each in moving]
+    pushed = ["_curve" if "curve" in options.kinds and each.solution.further.pushover.curve else "" for each in moving]
     return [PictureFile(f"_{each.load_case.name}{kind}", of(each)) for each, kind in zip(moving, pushed, strict=True)]
 
 

@@ -170,12 +170,14 @@ def case_json(scene: Scene) -> dict[str, Any]:
         "reductions": as_json(solution.reductions),
         "path": as_json(solution.path),
         "path_by_stiffness": as_json(solution.path_by_stiffness),
-        "curve": as_json(solution.curve),
-        "curve_stiffness": None if solution.pushed is None else as_json(solution.pushed.stiffness),
-        "curve_end": solution.curve_end,
-        "curve_end_error": as_json(solution.curve_end_error),
-        "curve_last_error": as_json(solution.curve_last_error),
-        "sensitivity": as_json(solution.sensitivity),
+        "curve": as_json(solution.further.pushover.curve),
+        "curve_stiffness": None
+        if solution.further.pushover.rows is None
+        else as_json(solution.further.pushover.rows.stiffness),
+        "curve_end": solution.further.pushover.curve_end,
+        "curve_end_error": as_json(solution.further.pushover.curve_end_error),
+        "curve_last_error": as_json(solution.further.pushover.curve_last_error),
+        "sensitivity": as_json(solution.further.sensitivity),
         "geometric_safety": _geometric_safety(solution),
         "assessment": as_json(assessment_of(scene.assembly, case)),
         "mechanism": None
@@ -222,7 +224,7 @@ def _standing(model: Model, solution: Solution) -> dict[str, str | None] | None:
 
 
 def _geometric_safety(solution: Solution) -> dict[str, Any] | None:
-    found = solution.geometric_safety
+    found = solution.further.geometric_safety
     if found is None:
         return None
     factors = {"factor": number(found.factor), "most": number(found.most)}

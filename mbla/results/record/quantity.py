@@ -56,7 +56,6 @@ COMPONENTS = {
     "direction": ("N", "T1", "T2"),
     "component": ("x", "y", "z", "rx", "ry", "rz"),
     "pair": ("a", "b"),
-    "end": ("lower", "upper"),
 }
 """what is along these dimensions, as columns of tables are named: ``contact_forces_N``"""
 
@@ -69,7 +68,6 @@ UNVERIFIED = {
     "words": "reasons and remarks in words",
     "course": "how it was solved: scheme, programs, iterations, steps and ends of paths, sizes, reductions",
     "curve": "of a pushover: errors of its load factors, where it jumps, which blocks fall without the rest, its end",
-    "searches": "ranges of normal forces",
     "claimed": "that no better answer was found than the status says, without associative flow that it does not fall "
     "before",
     "standing": "that it stands only by self-stress, or that it is doubtful whether it stands",

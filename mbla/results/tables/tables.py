@@ -32,6 +32,7 @@ from mbla.results.results import CaseResult, Results
 from mbla.results.series import chosen_cases, factor_of, position_of, series_of
 from mbla.results.tables.formats import table_csv, table_parquet
 from mbla.results.tables.table import Table, TableKind, table_of, unit_in, values_in_scene, values_of_rows
+from mbla.solution.solution import Solution
 
 CASE = Quantity("case", "text", "load case")
 
@@ -67,24 +68,28 @@ POINTS = _of_scenes(
 # --- Tables of what there is to list: a part is a list of rows ------------------------------------------------------
 
 
-def _list_table(name: str, words: str) -> TableKind:
-    """A table of the records that a solution lists under one name, as the result file has them."""
+def _list_table(name: str, words: str, of: Callable[[Solution], Sequence[object]]) -> TableKind:
+    """A table of records that a solution lists, as the result file has them under a name."""
 
     def rows(_: Results, cases: tuple[CaseResult, ...]) -> Iterator[list[Any]]:
         for case in cases:
-            yield [vars(record) | {"case": case.load_case.name} for record in getattr(case.solution, name)]
+            yield [vars(record) | {"case": case.load_case.name} for record in of(case.solution)]
 
     held = (quantity for quantity in STORED if quantity.place == f"cases/*/{name}")
     columns = tuple(Column(each, itemgetter(each.name), None, ("table",)) for each in (CASE, *held))
     return TableKind(name, words, columns, rows, values_of_rows)
 
 
-PROGRAMS = _list_table("programs", "each program that was solved for a load case")
-ITERATIONS = _list_table("iterations", "each iteration of each program")
-PATH = _list_table("path", "each step of the path of elastic joints that was followed")
+PROGRAMS = _list_table("programs", "each program that was solved for a load case", lambda solution: solution.programs)
+ITERATIONS = _list_table("iterations", "each iteration of each program", lambda solution: solution.iterations)
+PATH = _list_table("path", "each step of the path of elastic joints that was followed", lambda solution: solution.path)
 
-CURVE = _list_table("curve", "each step of a pushover")
-SENSITIVITY = _list_table("sensitivity", "each parameter by which the load factor is known to change")
+CURVE = _list_table("curve", "each step of a pushover", lambda solution: solution.further.pushover.curve)
+SENSITIVITY = _list_table(
+    "sensitivity",
+    "each parameter by which the load factor is known to change",
+    lambda solution: solution.further.sensitivity,
+)
 
 
 def _reactions(results: Results, cases: tuple[CaseResult, ...]) -> Iterator[list[Any]]:

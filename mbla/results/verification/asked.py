@@ -21,7 +21,7 @@ from mbla.results.series import position_of, series_of, worst_known
 from mbla.results.verification.pushover import pushover_claims, pushover_differences
 from mbla.solution.flow.path_record import Stop
 from mbla.solution.flow.settings import RATIOS, ratios_beside, second_ratio
-from mbla.solution.limits.geometric_safety import why_no_geometric_safety
+from mbla.solution.further.geometric_safety.find import why_no_geometric_safety
 from mbla.solution.nonassociative.by_stiffness import same
 from mbla.solution.pushover.pushed import CurveEnd
 from mbla.solution.settings import settings_for, solver_settings
@@ -100,9 +100,9 @@ def held_against_deck(deck: Deck, assembly: Assembly, case: CaseResult, *, done:
     case : with checks, status and curve recomputed
     done : False where the run was stopped while it pushed on the load case, so that the rest is missing
     """
-    found, end = Found(), case.solution.curve_end
+    found, end = Found(), case.solution.further.pushover.curve_end
     found.differences += [f"the file has {what}, which the deck does not ask for" for what in _not_asked(deck, case)]
-    if (end is CurveEnd.STOPPED) is (done or case.solution.pushed is None):
+    if (end is CurveEnd.STOPPED) is (done or case.solution.further.pushover.rows is None):
         found.differences.append(f"the load case is {'' if done else 'not '}done, and its pushover ends: {end or '-'}")
     if not done:
         return found
@@ -131,10 +131,9 @@ def _not_asked(deck: Deck, case: CaseResult) -> Iterator[str]:
     history = None if mechanics is None else mechanics.remembered
     present: Mapping[str, tuple[object, bool]] = {
         "what elastic joints remember": (history, settings.by_elastic_path),
-        "a pushover": (solution.pushed, load_case.pushover is not None),
-        "slopes": (solution.sensitivity or None, deck.analysis.sensitivity is not False),
-        "a geometric factor of safety": (solution.geometric_safety, deck.analysis.geometric_safety),
-        "ranges of normal forces": (solution.force_ranges, settings.analysis.force_ranges),
+        "a pushover": (solution.further.pushover.rows, load_case.pushover is not None),
+        "slopes": (solution.further.sensitivity or None, deck.analysis.sensitivity is not False),
+        "a geometric factor of safety": (solution.further.geometric_safety, deck.analysis.geometric_safety),
         "a verdict on standing": (solution.standing, settings.standing),
         "a state with torsion": (solution.torsion, settings.by_torsion),
         "a least state": (solution.least, settings.by_elastic_path and settings.search > 0.0),
@@ -145,18 +144,15 @@ def _not_asked(deck: Deck, case: CaseResult) -> Iterator[str]:
 
 
 def _limits(found: Found, deck: Deck, assembly: Assembly, case: CaseResult) -> None:
-    """Standing, geometric safety and ranges of normal forces; slopes are found again."""
+    """Standing and geometric safety; slopes are found again."""
     solution, knobs = case.solution, settings_for(case.load_case, solver_settings(deck.analysis))
     claims = solution.status in (*WITH_VALUE, Status.UNBOUNDED)
     if knobs.standing and claims and solution.standing is None:
         found.differences.append(lacks("standing"))
-    if deck.analysis.geometric_safety and solution.geometric_safety is None:
+    if deck.analysis.geometric_safety and solution.further.geometric_safety is None:
         against = why_no_geometric_safety(assembly.model, assembly.contacts, case.load_case, deck.analysis)
         if not against:
             _missing(found, "geometric factor of safety", case, "geometric-safety-not-done")
-    asked = knobs.analysis.force_ranges and solution.mechanics is not None and not solution.conditions_on_interfaces
-    if asked and solution.force_ranges is None:
-        found.differences.append(lacks("ranges of normal forces"))
 
 
 def _associative(found: Found, assembly: Assembly, case: CaseResult) -> None:

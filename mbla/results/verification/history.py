@@ -67,7 +67,7 @@ def _load_factor(deck: Deck, assembly: Assembly, case: CaseResult, ratio: float)
     """What the path of joints with a ratio of stiffness reaches, nan for nothing, and whether that is all."""
     settings = settings_for(case.load_case, solver_settings(deck.analysis))
     path = settings.analysis.path.model_copy(update={"ratio": ratio})
-    analysis = settings.analysis.model_copy(update={"path": path, "accuracy": "standard", "force_ranges": False})
+    analysis = settings.analysis.model_copy(update={"path": path, "accuracy": "standard"})
     settings = replace(settings, analysis=analysis, steps=STEPS, search=0.0, torsion=False, standing=False)
     program = build_program(assembly, case.load_case, analysis)
     found = solve(program, settings)

@@ -33,28 +33,28 @@ def pushover_differences(deck: Deck, assembly: Assembly, case: CaseResult) -> It
     solution, load_case = case.solution, case.load_case
     model = assembly.model.of_case(load_case)
     against = why_not_pushed(model, assembly.contacts, load_case, solution, case.status is Status.SOLVED)
-    if solution.pushed is None:
+    if solution.further.pushover.rows is None:
         if not against:
             yield "the deck asks for the pushover, which the file does not have"
         return
     if against:
         yield f"the file has a pushover, which no run makes of this case: {against}"
         return
-    if failure := end_failure(load_case, solution.curve, solution.curve_end):
+    if failure := end_failure(load_case, solution.further.pushover.curve, solution.further.pushover.curve_end):
         yield failure
-    elif solution.curve_end is CurveEnd.LATE and deck.analysis.time_limit is None:
-        yield f"the deck has no time limit, the file says of its pushover: {solution.curve_end}"
+    elif solution.further.pushover.curve_end is CurveEnd.LATE and deck.analysis.time_limit is None:
+        yield f"the deck has no time limit, the file says of its pushover: {solution.further.pushover.curve_end}"
     yield from _rows_missing(case)
-    if failure := energy_failure(load_case, solution.pushed):
+    if failure := energy_failure(load_case, solution.further.pushover.rows):
         yield failure
-    if (row := row_of_another_law(assembly, deck.contacts, load_case, solution.pushed)) is not None:
+    if (row := row_of_another_law(assembly, deck.contacts, load_case, solution.further.pushover.rows)) is not None:
         yield f"step {row} of the pushover has contact points with a joint law that its deck does not give them"
-    if _comes_back(solution.pushed):
+    if _comes_back(solution.further.pushover.rows):
         yield "blocks that have fallen are part of the structure again further on in the pushover"
 
 
 def _rows_missing(case: CaseResult) -> Iterator[str]:
-    without = [row.step for row, says in gaps(case.load_case, case.solution.curve) if not says]
+    without = [row.step for row, says in gaps(case.load_case, case.solution.further.pushover.curve) if not says]
     if without:
         yield f"before step {without[0]} the pushover has no row where its deck asks for one: rows are missing"
 
@@ -66,11 +66,11 @@ def _comes_back(rows: PushedRows) -> bool:
 def pushover_claims(case: CaseResult) -> Iterator[str]:
     """What a pushover says that nothing in the file shows, in words: ``--again`` follows it anew."""
     solution, load_case = case.solution, case.load_case
-    rows, curve = solution.pushed, solution.curve
+    rows, curve = solution.further.pushover.rows, solution.further.pushover.curve
     if rows is None or load_case.pushover is None:
         return
-    if solution.curve_end not in SHOWN:
-        yield f"why the pushover ends is not verified; the file says: {solution.curve_end}"
+    if solution.further.pushover.curve_end not in SHOWN:
+        yield f"why the pushover ends is not verified; the file says: {solution.further.pushover.curve_end}"
         if load_case.assessment is not None:
             yield "the verdict of the code rests on where the pushover ends, which is not verified"
     said = [(row.step, says) for row, says in gaps(load_case, curve) if says]

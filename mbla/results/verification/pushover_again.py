@@ -21,8 +21,9 @@ from mbla.results.verification.asked import Found
 from mbla.solution.pushover.curve import pushed
 from mbla.solution.pushover.followed import greatest_value
 from mbla.solution.pushover.pushed import CurveEnd
+from mbla.solution.pushover.pushover import Pushover
 from mbla.solution.settings import settings_for, solver_settings
-from mbla.solution.solution import Solution, Status
+from mbla.solution.solution import Status
 
 ALLOWED = 2e-3
 """Change of a load factor, over the greatest of the curve, and of an energy, up to which two curves are one."""
@@ -39,20 +40,20 @@ def pushover_again(deck: Deck, assembly: Assembly, case: CaseResult) -> Pushover
 
     case : with checks, status and curve recomputed
     """
-    own, load_case = case.solution, case.load_case
-    if own.pushed is None or load_case.pushover is None or len(own.curve) < 2 or case.status is not Status.SOLVED:
+    own, load_case = case.solution.further.pushover, case.load_case
+    if own.rows is None or load_case.pushover is None or len(own.curve) < 2 or case.status is not Status.SOLVED:
         return None
     if own.curve_end is CurveEnd.LATE:  # as far as it came
         asked = replace(load_case.pushover, steps=len(own.curve) - 1, error=False)
         load_case = replace(load_case, pushover=asked)
     settings = replace(settings_for(load_case, solver_settings(deck.analysis)), deadline=None)
-    bare = replace(own, pushed=None, curve=(), curve_end=CurveEnd.NONE, remarks=())
-    again = pushed(assembly, deck.contacts, load_case, bare, settings, lambda record: None, solved=True)
-    return None if again.pushed is None else _beside(case, again)
+    again, _ = pushed(assembly, deck.contacts, load_case, case.solution, settings, lambda record: None, solved=True)
+    return None if again.rows is None else _beside(case, again)
 
 
-def _beside(case: CaseResult, again: Solution) -> PushoverAgain:
-    own, late = case.solution, case.solution.curve_end is CurveEnd.LATE
+def _beside(case: CaseResult, again: Pushover) -> PushoverAgain:
+    own = case.solution.further.pushover
+    late = own.curve_end is CurveEnd.LATE
     greatest = max(greatest_value(case.load_case, _column(each, "load_factor")) for each in (own, again))
     off, at = max(_off(one, other, "load_factor") for one, other in ((own, again), (again, own)))
     energies = ("live_work", "friction", "tie_work", "crushing", "potential")
@@ -79,21 +80,21 @@ def _beside(case: CaseResult, again: Solution) -> PushoverAgain:
     )
 
 
-def _column(solution: Solution, name: str) -> FloatArray:
-    return np.array([getattr(row, name) for row in solution.curve])
+def _column(pushover: Pushover, name: str) -> FloatArray:
+    return np.array([getattr(row, name) for row in pushover.curve])
 
 
-def _off(one: Solution, other: Solution, name: str) -> tuple[float, float]:
+def _off(one: Pushover, other: Pushover, name: str) -> tuple[float, float]:
     """Greatest difference at the rows of one from the other, and its displacement; where that has not been, all."""
     moved, their = _column(one, "displacement"), np.maximum.accumulate(_column(other, "displacement"))
     off = np.abs(_column(one, name) - np.interp(moved, their, _column(other, name)))
     return float(off.max()), float(moved[off.argmax()])
 
 
-def _same_errors(own: Solution, again: Solution, greatest: float) -> bool:
+def _same_errors(own: Pushover, again: Pushover, greatest: float) -> bool:
     """Whether the greatest of the errors of load factors, and those of the end, are what they are found to be."""
 
-    def errors(of: Solution) -> FloatArray:
+    def errors(of: Pushover) -> FloatArray:
         rows = _column(of, "error")
         most = float(np.nanmax(rows)) if np.isfinite(rows).any() else np.nan
         way = abs(of.curve[-1].displacement)

@@ -19,11 +19,12 @@ from mbla.results.explanations import explanations
 from mbla.results.findings import FOUND_AGAIN
 from mbla.results.results import CaseResult
 from mbla.results.verification.asked import by_normality
-from mbla.solution.limits.geometric_safety import no_geometric_safety, why_no_geometric_safety
+from mbla.solution.further.geometric_safety.find import no_geometric_safety, why_no_geometric_safety
+from mbla.solution.further.sensitivity.sensitivity import no_sensitivity, why_no_sensitivity
 from mbla.solution.pushover.curve import no_pushover, pushover_remarks, why_not_pushed
-from mbla.solution.sensitivity.sensitivity import no_sensitivity, why_no_sensitivity
+from mbla.solution.sequence.tilting_table import NOT_PROVED_BETWEEN
 from mbla.solution.solution import WITH_VALUE, Solution, Status
-from mbla.solution.tilt import GOOD, NOT_PROVED_BETWEEN
+from mbla.solution.verification.tilting_table import GOOD
 
 
 def _without_dilatancy(case: CaseResult) -> bool:
@@ -68,8 +69,8 @@ def remarks_found_again(deck: Deck, assembly: Assembly, case: CaseResult) -> tup
         found += [] if proved else [NOT_PROVED_BETWEEN]
     if load_case.pushover is not None:
         against = why_not_pushed(model, contacts, load_case, solution, case.status is Status.SOLVED)
-        if solution.pushed is not None and solution.mechanics is not None:
-            found += pushover_remarks(model, load_case, solution)
+        if solution.further.pushover.rows is not None and solution.mechanics is not None:
+            found += pushover_remarks(model, load_case, solution, solution.further.pushover)
         found += [no_pushover(against)] if against else []
     if deck.analysis.sensitivity is not False:
         against = why_no_sensitivity(load_case, solution, case.checks)

@@ -1,8 +1,7 @@
 """Which solver takes a cone program: the one that the deck names, or the one that measurements favour.
 
 - ``mbla``: the interior-point method of :mod:`mbla.solution.cone_solvers.interior_point`, for programs of its shape
-- ``clarabel``: any program; those of other shapes, those whose admissible set has no inside, and those of which
-  ``mbla`` comes to no answer, under ``mbla`` too
+- ``clarabel``: any program; those of other shapes, and those of which ``mbla`` comes to no answer, under ``mbla`` too
 - ``auto``: ``mbla`` from ``OWN_FROM`` unknowns, programs with a quadratic cost only with a fast factorisation, those
   with conditions on interfaces not first; else ``clarabel``
 
@@ -34,13 +33,8 @@ FAST = "cholmod"
 """Factorisation with which programs of few iterations, those with a quadratic cost, are faster too."""
 
 
-def cone_solver(
-    cone_program: ConeProgram, settings: SolverSettings, log: Log, *, has_inside: bool = True
-) -> ConeSolver:
+def cone_solver(cone_program: ConeProgram, settings: SolverSettings, log: Log) -> ConeSolver:
     """The program held by ``settings.solver``.
-
-    has_inside : false where the admissible set has none, forces that fit a given mechanism for example: the strong
-                 regularisation of clarabel gets closer there
 
     Raises SolverError where there is no solver of the name ``settings.solver``.
     """
@@ -48,7 +42,7 @@ def cone_solver(
         raise SolverError(
             "unknown-solver", f"there is no cone solver {settings.solver}; there are {', '.join(SOLVERS)}"
         )
-    if not has_inside or interior_point_method(cone_program, settings.solver) == "clarabel":
+    if interior_point_method(cone_program, settings.solver) == "clarabel":
         return ClarabelProgram(cone_program, settings, log)
     return _OneThenOther(CondensedProgram(cone_program, settings, log), settings, log)
 

@@ -6,7 +6,7 @@ times to forces that carry the dead load they stay within the yield conditions, 
 
 They are found as the least forces of that kind, with a little less friction than there is so that they lie inside the
 cones, and then brought to exact equilibrium (``repaired_forces``). They are evaluated by other code:
-:mod:`mbla.solution.verification.further_claims`.
+:mod:`mbla.solution.verification.lock`.
 
 Without dilatancy the load factor may be bounded where friction with normality locks the structure: what is confined
 cannot slide where sliding dilates. The path of elastic joints shows it (:mod:`mbla.solution.flow.path_of_part`).

@@ -12,6 +12,7 @@ import time
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from itertools import pairwise
+from typing import TypeAlias
 
 import numpy as np
 
@@ -29,7 +30,8 @@ from mbla.solution.pushover.control import MOVES, Control
 from mbla.solution.pushover.followed import STEP_DEPENDENCE, StepErrors, step_dependence, step_errors
 from mbla.solution.pushover.place import Row
 from mbla.solution.pushover.pushed import CurveEnd, CurveRow
-from mbla.solution.pushover.record import RecordedRow, RowPoints, recorded
+from mbla.solution.pushover.pushover import NOT_PUSHED, Pushover
+from mbla.solution.pushover.record import PushedRows, RecordedRow, RowPoints, recorded
 from mbla.solution.pushover.structure import PushedStructure
 from mbla.solution.pushover.way import Way
 from mbla.solution.settings import SolverSettings
@@ -51,6 +53,9 @@ MORE_POINTS = "give contacts.points a per_edge or spacing"
 ALIKE = 0.9
 """Cosine between the motions to two rows below which they are two mechanisms."""
 
+
+Found: TypeAlias = tuple[Pushover, tuple[Message, ...]]
+"""A pushover, and what a reader of it must know."""
 
 RESTS = "the control point does not move as the structure starts to: leave control out, or name blocks that move"
 """Why a curve has no displacement."""
@@ -127,17 +132,17 @@ def pushed(
     settings: SolverSettings,
     log: Log,
     solved: bool,
-    tell: Callable[[Callable[[], Solution]], None] = lambda so_far: None,
-) -> Solution:
-    """The solution of a load case with its capacity curve, or with a remark that says why there is none.
+    tell: Callable[[Callable[[], Found]], None] = lambda so_far: None,
+) -> Found:
+    """The capacity curve of a load case and remarks on it, or a remark that says why there is none.
 
-    tell : told how to make the solution with the rows that are done by then
+    tell : told how to make the same with the rows that are done by then
     """
     model = assembly.model.of_case(case)
     against = why_not_pushed(model, assembly.contacts, case, solution, solved)
     asked, first = case.pushover, solution.mechanics
     if against or first is None or asked is None:
-        return replace(solution, remarks=(*solution.remarks, no_pushover(against)))
+        return NOT_PUSHED, (no_pushover(against),)
     first = replace(start_of(solution), load_factor=factor_at_start(case, solution))
     structure = PushedStructure.of(assembly, section, case, settings.analysis.flow_rule)
     control = Control.of(model, case, first.mechanism)
@@ -146,26 +151,20 @@ def pushed(
     way = Way(structure, control, first, asked.step, *ends, settings.deadline, watch=watch)
     done = [_row_0(model, first)]
 
-    def with_curve(rows: list[RecordedRow], errors: StepErrors, end: CurveEnd) -> Solution:
+    def found(rows: list[RecordedRow], errors: StepErrors, end: CurveEnd) -> Found:
         record = recorded(rows, way.stiffness).with_errors(errors.rows)
-        found = replace(
-            solution,
-            pushed=record,
-            curve_end=end,
-            curve_end_error=errors.displacement,
-            curve_last_error=errors.load_factor,
-        )
-        found = replace(found, curve=curve_of(assembly, case, found))
-        return replace(found, remarks=(*solution.remarks, *pushover_remarks(model, case, found)))
+        curve = curve_of(assembly, case, solution, record)
+        pushover = Pushover(curve, end, errors.displacement, errors.load_factor, record)
+        return pushover, pushover_remarks(model, case, solution, pushover)
 
-    tell(lambda: with_curve(done, StepErrors.unknown(len(done)), CurveEnd.STOPPED))
+    tell(lambda: found(done, StepErrors.unknown(len(done)), CurveEnd.STOPPED))
     end = _followed(way, done)
     errors = StepErrors.unknown(len(done))
     if asked.error and end is not CurveEnd.LATE:
         longer = [_row_0(model, first)]
         other = _followed(replace(way, step=2.0 * asked.step, most=2.0), longer)
         errors = step_errors(_figures(model, control, done), end, _figures(model, control, longer), other)
-    return with_curve(done, errors, end)
+    return found(done, errors, end)
 
 
 def _watched(log: Log) -> Callable[[int, float, bool], None]:
@@ -229,21 +228,21 @@ def _with_ties(values: np.ndarray, n_ties: int, of_tie: float) -> np.ndarray:
     return np.concatenate([values, np.full((n_ties, *values.shape[1:]), of_tie, dtype=values.dtype)])
 
 
-def _step_remarks(case: LoadCase, solution: Solution) -> Iterator[Message]:
+def _step_remarks(case: LoadCase, pushover: Pushover) -> Iterator[Message]:
     """The remark where the curve depends on its step."""
-    curve, share, end = solution.curve, step_dependence(case, solution), solution.curve_end_error
+    curve, share, end = pushover.curve, step_dependence(case, pushover), pushover.curve_end_error
     if share > STEP_DEPENDENCE:
         words = f"with steps of twice the size figures of the pushover change by up to {share:.2g} of the greatest"
         words += f", and its end by {end:.2g} from {curve[-1].displacement:.3g}" if np.isfinite(end) else ""
         yield Message("pushover-depends-on-step", words)
 
 
-def pushover_remarks(model: Model, case: LoadCase, solution: Solution) -> tuple[Message, ...]:
+def pushover_remarks(model: Model, case: LoadCase, solution: Solution, pushover: Pushover) -> tuple[Message, ...]:
     """What a reader of a capacity curve must know, from its rows and its first mechanism.
 
     model : as it may move under the load case
     """
-    curve, remarks = solution.curve, list[Message]()
+    curve, remarks = pushover.curve, list[Message]()
     assert solution.mechanics is not None  # else there is no curve
     first = start_of(solution)
     if not _speed(model, Control.of(model, case, first.mechanism), first) > MOVES * _greatest_speed(first):
@@ -259,24 +258,20 @@ def pushover_remarks(model: Model, case: LoadCase, solution: Solution) -> tuple[
         words = f"{len(rough)} of {len(curve) - 1} steps of the pushover violate the joint law by more than "
         words += f"{SOLVED_RESIDUAL:g}, step {worst.step} the most, by {worst.residual:.2g}"
         remarks.append(Message("pushover-rough", words))
-    return (*remarks, *_step_remarks(case, solution))
+    return (*remarks, *_step_remarks(case, pushover))
 
 
-def begun_by(case: LoadCase, solution: Solution) -> Solution:
-    """The solution with the load factor at which it starts to move in row 0 of its pushover, as it must be."""
-    rows = solution.pushed
-    if rows is None or solution.mechanics is None:
-        return solution
+def begun_by(case: LoadCase, solution: Solution, rows: PushedRows) -> PushedRows:
+    """Rows of a pushover with the load factor at which the structure starts to move in row 0, as it must be."""
     factors, shifts = rows.load_factors.copy(), rows.shifts.copy()
     turns, fallen = rows.turns.copy(), rows.fallen.copy()
     factors[0], shifts[0], turns[0], fallen[0] = factor_at_start(case, solution), 0.0, 0.0, False
-    return replace(solution, pushed=replace(rows, load_factors=factors, shifts=shifts, turns=turns, fallen=fallen))
+    return replace(rows, load_factors=factors, shifts=shifts, turns=turns, fallen=fallen)
 
 
-def curve_of(assembly: Assembly, case: LoadCase, solution: Solution) -> tuple[CurveRow, ...]:
+def curve_of(assembly: Assembly, case: LoadCase, solution: Solution, rows: PushedRows) -> tuple[CurveRow, ...]:
     """Rows of the curve from poses, points, forces and history on record; row 0 is that of the load factor."""
-    rows, model = solution.pushed, assembly.model.of_case(case)
-    assert rows is not None  # else there is no curve
+    model = assembly.model.of_case(case)
     control = Control.of(model, case, start_of(solution).mechanism)
     found = row_residuals(assembly, case, solution.flow_rule, rows)
     poses, factors, start = list(rows.poses), rows.load_factors, "mechanics"

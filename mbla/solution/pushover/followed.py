@@ -14,7 +14,7 @@ import numpy as np
 from mbla.arrays import FloatArray
 from mbla.model.model import LoadCase
 from mbla.solution.pushover.pushed import CurveEnd
-from mbla.solution.solution import Solution
+from mbla.solution.pushover.pushover import Pushover
 
 STEP_DEPENDENCE = 0.02
 """Change with steps of twice the size, over the greatest value, from which figures of a pushover are approximate."""
@@ -77,17 +77,17 @@ def greatest_value(case: LoadCase, load_factors: FloatArray) -> float:
     return float(np.abs([settlement.reaction(each) / settlement.unit for each in load_factors]).max())
 
 
-def step_dependence(case: LoadCase, solution: Solution) -> float:
+def step_dependence(case: LoadCase, pushover: Pushover) -> float:
     """The greatest change with steps of twice the size: of a value over the greatest, of the displacement at the end
     over itself; nan where none is known.
     """
-    curve = solution.curve
+    curve = pushover.curve
     if len(curve) < 2:
         return np.nan
     greatest = greatest_value(case, np.array([row.load_factor for row in curve]))
-    values = [*(row.error for row in curve), solution.curve_last_error]
+    values = [*(row.error for row in curve), pushover.curve_last_error]
     shares = [value / greatest if greatest > 0.0 else np.nan for value in values]
     way = max(abs(row.displacement) for row in curve)
-    shares.append(solution.curve_end_error / way if way > 0.0 else np.nan)
+    shares.append(pushover.curve_end_error / way if way > 0.0 else np.nan)
     known = [share for share in shares if np.isfinite(share)]
     return max(known, default=np.nan)

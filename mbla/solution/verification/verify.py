@@ -2,7 +2,7 @@
 
 - ``verify_points``: residuals of forces and mechanism, bounds of the associative load factor, certificates;
 - ``verify_convex``: the first with conditions on the resultants of interfaces;
-- ``further_claims``: standing, lock, the least state, the angle of a tilting table.
+- ``standing``, ``lock``, ``least``, ``tilting_table``: what is claimed in addition to the load factor.
 """
 
 from __future__ import annotations
@@ -22,14 +22,11 @@ from mbla.solution.lifted import model_of, rule_of, solution_on_bodies
 from mbla.solution.solution import Checks, Solution, Standing, Status
 from mbla.solution.verification.case import Case
 from mbla.solution.verification.elastic_law import elastic_residual
-from mbla.solution.verification.further_claims import (
-    least_check,
-    lock_failures,
-    never_failures,
-    standing_failures,
-    tilt_failures,
-)
+from mbla.solution.verification.least import least_check
+from mbla.solution.verification.lock import lock_failures
 from mbla.solution.verification.residuals import residuals_of
+from mbla.solution.verification.standing import standing_failures
+from mbla.solution.verification.tilting_table import never_failures, tilt_failures
 from mbla.solution.verification.verify_convex import (
     InterfaceCase,
     convex_lock_failures,

@@ -27,7 +27,6 @@ from mbla.solution.solution import Checks, Mechanics, Solution
 from mbla.solution.thresholds import LIVE_POWER_DEVIATION, SOLVED_EQUILIBRIUM, SOLVED_RESIDUAL
 from mbla.solution.verification.case import PASSED_ON_ROUNDING, PROVED_RESIDUAL, Case, InterfaceTerms, Motion
 from mbla.solution.verification.elastic_law import elastic_residual
-from mbla.solution.verification.further_claims import LASTING
 from mbla.solution.verification.interface_laws import (
     InterfaceLaws,
     crushing_excess,
@@ -37,6 +36,7 @@ from mbla.solution.verification.interface_laws import (
     torsion_excess,
     torsion_power,
 )
+from mbla.solution.verification.lock import LASTING
 from mbla.solution.verification.residuals import residuals_of
 from mbla.solution.verification.statics import allowed_motion, largest_on_interface
 from mbla.solution.verification.verify_points import checked

@@ -4,7 +4,7 @@ Of a load factor the side is known even where there is none: a structure that do
 that no load brings down above it.
 
 That the dead load is just carried is asked by the greatest pressure that is carried with it in all joints, which passes
-through zero there (:mod:`mbla.solution.limits.joint_pressure`).
+through zero there (:mod:`mbla.solution.further.geometric_safety.joint_pressure`).
 """
 
 from __future__ import annotations
@@ -23,9 +23,9 @@ from mbla.results.outcome import least_known, locked_in, result_of
 from mbla.results.results import CaseResult
 from mbla.results.sta import StatusFile
 from mbla.run import solve_case
-from mbla.solution.limits.joint_pressure import joint_pressure, pressed_by
-from mbla.solution.sensitivity.sensitivity import slope_by
-from mbla.solution.sensitivity.structures import Structure
+from mbla.solution.further.geometric_safety.joint_pressure import joint_pressure, pressed_by
+from mbla.solution.further.sensitivity.sensitivity import slope_by
+from mbla.solution.further.sensitivity.structures import Structure
 from mbla.solution.settings import solver_settings
 from mbla.solution.solution import Checks, Standing, StandingResult, Status
 from mbla.solution.standing.standing import standing_where_carried

@@ -11,8 +11,8 @@ from mbla.deck import Deck
 from mbla.process.sharing import Memory, sharing
 from mbla.results.listing.text import counted, full_sentence, number, sentence, small, table
 from mbla.results.record.json_values import as_json
-from mbla.solution.limits.samples import Zero
-from mbla.solution.limits.zeros import find_zeros, is_level, scan
+from mbla.solution.further.zeros.samples import Zero
+from mbla.solution.further.zeros.zeros import find_zeros, is_level, scan
 from mbla.solution.solution import Standing, StandingResult
 from mbla.sweeps.find.answer import REFUSED, Answer, answer_at, refuse_unfit_deck, standing_at
 from mbla.sweeps.find.question import TARGETS, Question, question_of

@@ -16,9 +16,9 @@ from mbla.model.build import structure_of
 from mbla.model.ties.candidates import Candidates, build_candidates
 from mbla.model.ties.ties import joined_ties
 from mbla.solution.cone_solvers.cone_solution import Log
+from mbla.solution.further.strengthening import Cheapest, Requirement, Strengthening, cheapest
 from mbla.solution.settings import solver_settings
 from mbla.solution.solution import WITH_VALUE
-from mbla.solution.strengthening import Cheapest, Requirement, Strengthening, cheapest
 from mbla.sweeps.strengthen.catalogue import greatest_there, rounded_up
 
 SHORT = 1e-6

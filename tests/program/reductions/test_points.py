@@ -204,11 +204,6 @@ def test_without_reason_to_the_contrary_the_deck_is_followed() -> None:
     assert not allowed_reductions(AnalysisSection(reductions=False)).on
 
 
-def test_what_would_change_the_answer_is_off() -> None:
-    allowed = vars(allowed_reductions(AnalysisSection(flow_rule="associative", force_ranges=True)))
-    assert {name for name, switched_on in allowed.items() if not switched_on} == {"mirror", "points"}
-
-
 def test_rounding_of_the_largest_entry_is_left_out() -> None:
     matrix = tidy(sp.coo_array((np.array([1e-16, -4.0, 1e-3, 0.0]), ([1, 0, 1, 0], [0, 1, 1, 0])), shape=(2, 3)))
     assert matrix.indices.tolist() == [1, 1]

@@ -193,7 +193,7 @@ def test_the_curve_of_a_pushover_as_an_array() -> None:
     case = mbla.run(TEXT, cases="outwards", set=QUICK).case("outwards")
     assert case.curve is not None
     assert case.curve[0] == pytest.approx([0.0, 0.075], abs=1e-8)  # from where the path of elastic joints still rises
-    assert case.curve.shape == (len(case.record.solution.curve), 2)
+    assert case.curve.shape == (len(case.record.solution.further.pushover.curve), 2)
     assert case.curve[:, 1] == pytest.approx(0.075 * (1 - case.curve[:, 0] / 0.3), abs=1e-3)
 
 

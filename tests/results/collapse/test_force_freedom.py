@@ -16,6 +16,7 @@ from mbla.program import assemble
 from mbla.results.collapse.force_freedom import ForceFreedom, enough_of, force_freedom
 from mbla.results.collapse.rigid_parts import rigid_parts
 from mbla.solution.solution import Mechanics, Status
+from tests.analytic.planar import GROUND, Rectangle, force_range, rectangles_in_contact
 from tests.line import BLOCK, HEAD, Line, case_of, line_of, line_of_file, verified
 from tests.properties.random_decks import random_deck
 from tests.results.no_contacts import without_contacts
@@ -30,7 +31,7 @@ blocks:
 supports: [{ground: {z: 0}}]
 load_cases:
   push: {live: [{acceleration: [1, 0, 0]}]}
-analysis: {flow_rule: associative, force_ranges: true}
+analysis: {flow_rule: associative}
 """
 )
 BEAM = (
@@ -80,17 +81,24 @@ def test_in_space_the_same_beam_has_twelve_resultants_against_six_equations(over
 
 
 def test_interfaces_called_determined_have_no_range() -> None:
-    """Each range is the answer of two programs; where they leave a width the resultant is not determined."""
+    """Each range is the answer of two linear programs, next to the load factor; what is not determined has a width."""
     model, result = case_of(WALL)
-    line = line_of(WALL)
-    mechanics, ranges = result.solution.mechanics, result.solution.force_ranges
+    contacts, mechanics = line_of(WALL).contacts, result.solution.mechanics
     assert mechanics is not None
-    assert ranges is not None
-    found = force_freedom(rigid_bodies(model, line.contacts), mechanics, 2)
+    found = force_freedom(rigid_bodies(model, contacts), mechanics, 2)
     assert isinstance(found, ForceFreedom)
-    widths = ranges[:, 1] - ranges[:, 0]
-    scale = float(np.abs(ranges[np.isfinite(ranges)]).max())
-    assert widths[found.determined].max() <= 1e-5 * scale
+    bricks = [Rectangle(*ends[[0, 2]].ravel()) for ends in np.stack(model.blocks.boxes, axis=2)]
+    joints = rectangles_in_contact(bricks, 0.65)
+    of_bodies = {frozenset((joint.a, joint.b)): number for number, joint in enumerate(joints)}
+    weights, centroids = np.array([brick.area for brick in bricks]), np.array([brick.centroid for brick in bricks])
+    loads = np.outer(weights, [(1.0 - 1e-9) * mechanics.load_factor, -1.0])
+    ranges = []
+    for bodies in contacts.bodies.tolist():
+        joint = of_bodies[frozenset(body if body < len(bricks) else GROUND for body in bodies)]
+        ranges.append(force_range(joints, centroids, loads, {joint: 1.0}, joints[joint].normal))
+    widths = np.diff(ranges, axis=1).ravel()
+    scale = float(np.abs(np.array(ranges)[np.isfinite(ranges)]).max())
+    assert widths[found.determined].max() <= 1e-5 * scale < widths[~found.determined].min()
     assert found.determined.any()
     assert not found.determined.all()
     assert found.degree > 0

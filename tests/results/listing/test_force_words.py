@@ -1,7 +1,7 @@
 import numpy as np
 
-from mbla.results.listing.forces import force_range_lines, lock_lines
-from tests.results.synthetic import tower_contacts, tower_mechanics, tower_model
+from mbla.results.listing.forces import lock_lines
+from tests.results.synthetic import tower_contacts, tower_model
 
 MODEL, CONTACTS = tower_model(), tower_contacts()
 
@@ -21,11 +21,3 @@ def test_locked_forces_are_named_by_interface_the_largest_first() -> None:
     assert rows[0][-2:] == ["8", "4"]
     assert rows[1][0] == "base[0]/tower[0]"
     assert rows[1][-2:] == ["4", "2"]
-
-
-def test_ranges_of_normal_forces_say_which_are_unique() -> None:
-    ranges = np.array([[10.0, 10.0], [2.0, np.inf]])
-    lines = force_range_lines(MODEL, CONTACTS, tower_mechanics(), ranges)
-    assert "1 of 2 are unique" in words(lines)
-    assert lines[-2].split()[-3:] == ["2", "unlimited", "10"]
-    assert lines[-1].split()[-3:] == ["10", "10", "10"]

@@ -10,6 +10,7 @@ from mbla.model import Model
 from mbla.results.listing.pushover import curve_lines, curve_words, no_curve_words
 from mbla.results.results import CaseResult
 from tests.line import BLOCK, HEAD, case_of
+from tests.results.changed_files import with_curve
 
 TABLE = (
     HEAD
@@ -43,7 +44,7 @@ def words_of(lines: list[str]) -> str:
 
 
 def test_a_jump_is_counted_in_the_row_behind_it(drawn_away: tuple[Model, CaseResult]) -> None:
-    curve = drawn_away[1].solution.curve
+    curve = drawn_away[1].solution.further.pushover.curve
     assert [row.displacement > 0.1 for row in curve if row.jumps] == [True]
     assert sum(row.jumps for row in curve) == 1
 
@@ -58,18 +59,16 @@ def test_jumps_are_said_and_marked(drawn_away: tuple[Model, CaseResult]) -> None
 
 def test_a_row_behind_a_jump_is_shown_however_many_rows_there_are(rocking: tuple[Model, CaseResult]) -> None:
     model, case = rocking
-    last = case.solution.curve[-1]
+    last = case.solution.further.pushover.curve[-1]
     curve = tuple(replace(last, step=row, jumps=int(row == 50), new_mechanism=False) for row in range(100))
-    case = replace(case, solution=replace(case.solution, curve=curve))
+    case = with_curve(case, curve)
     assert [line.split()[0] for line in curve_lines(model, case) if line.endswith(" jump")] == ["50"]
 
 
 def test_steps_that_were_not_found_are_said(rocking: tuple[Model, CaseResult]) -> None:
     model, case = rocking
-    curve = (*case.solution.curve[:-1], replace(case.solution.curve[-1], unsolved=2))
-    assert "2 steps between not found" in curve_words(
-        model, replace(case, solution=replace(case.solution, curve=curve))
-    )
+    curve = (*case.solution.further.pushover.curve[:-1], replace(case.solution.further.pushover.curve[-1], unsolved=2))
+    assert "2 steps between not found" in curve_words(model, with_curve(case, curve))
 
 
 def test_a_curve_without_jumps_says_nothing_of_them(rocking: tuple[Model, CaseResult]) -> None:
@@ -78,8 +77,8 @@ def test_a_curve_without_jumps_says_nothing_of_them(rocking: tuple[Model, CaseRe
 
 def test_the_stiffness_of_joints_is_printed_with_its_unit(rocking: tuple[Model, CaseResult]) -> None:
     model, case = rocking
-    assert case.solution.pushed is not None
-    across, along = case.solution.pushed.stiffness
+    assert case.solution.further.pushover.rows is not None
+    across, along = case.solution.further.pushover.rows.stiffness
     words = f"as stiff as {across:.3g} N/m3 across and {along:.3g} along"
     assert words in words_of(curve_lines(model, case))
     assert words not in curve_words(model, case)  # of a plane structure nothing depends on it

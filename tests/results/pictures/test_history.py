@@ -11,6 +11,7 @@ from mbla.results.pictures.scene import scene_of
 from mbla.results.results import CaseResult, Results
 from mbla.results.series import series_of
 from mbla.solution.solution import Status
+from tests.results.changed_files import with_curve
 from tests.results.synthetic import full_results, standing_at, tower_results
 
 
@@ -109,8 +110,8 @@ def test_a_curve_says_which_steps_are_not_verified(tmp_path: Path, pushed: bool)
     results = full_results()
     case = results.cases[0 if pushed else 1]
     if pushed:
-        first, last = case.solution.curve
-        case = replace(case, solution=replace(case.solution, curve=(first, replace(last, residual=0.1))))
+        first, last = case.solution.further.pushover.curve
+        case = with_curve(case, (first, replace(last, residual=0.1)))
     path = tmp_path / "curve.svg"
     draw_curve(path, scene_of(results, case, PictureOptions(), "curve"), PictureOptions())
     shown = " ".join(texts(path))

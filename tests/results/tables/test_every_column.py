@@ -155,8 +155,6 @@ def interface_rows(results: Results) -> list[dict[str, Any]]:
             put(row, "normals", contacts.normals[i])
             row["figures"] = figures(case)
             row |= interface_forces(results, forces_of(case), i, points)
-            ranges = case.solution.force_ranges
-            row["force_ranges_lower"], row["force_ranges_upper"] = (np.nan, np.nan) if ranges is None else ranges[i]
             v, w = (NAN3, NAN3) if mechanics is None else relative(results, mechanics.mechanism, i)
             put(row, "translations", v)
             put(row, "rotations", w)

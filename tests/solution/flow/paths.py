@@ -25,8 +25,8 @@ from mbla.solution.flow.path_of_part import PathOfPart, path_of_part
 from mbla.solution.flow.settings import PathSettings
 from mbla.solution.law.elastic_joints import ElasticJoints
 from mbla.solution.law.interfaces import NONE, Interfaces
+from mbla.solution.sequence.settlement import posed
 from mbla.solution.settings import SolverSettings, solver_settings
-from mbla.solution.trials import posed
 from tests.line import Line
 
 SETTINGS = SolverSettings(tolerance=1e-8)

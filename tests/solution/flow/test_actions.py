@@ -13,8 +13,8 @@ from mbla.solution.flow.path_of_part import PathOfPart, path_of_part
 from mbla.solution.flow.path_of_parts import deciding
 from mbla.solution.flow.path_record import Stop
 from mbla.solution.flow.settings import PathSettings
+from mbla.solution.sequence.tilt_circle import chord
 from mbla.solution.solution import Status
-from mbla.solution.tilt_circle import chord
 from tests.decks.folder import BENCHMARKS, PATHS
 from tests.line import BLOCK
 from tests.solution.flow.paths import DEFAULT, case_of

@@ -17,7 +17,7 @@ from mbla.solution.nonassociative import locking
 from mbla.solution.nonassociative.locking import locking_forces
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Status
-from mbla.solution.verification.further_claims import lock_failures
+from mbla.solution.verification.lock import lock_failures
 from tests.line import Line, line_of
 from tests.solution.standing_structures import FIXED, LEVEL, bar, box, deck, groove, plane, plug, prism
 

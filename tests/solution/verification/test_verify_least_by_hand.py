@@ -12,7 +12,7 @@ import pytest
 from mbla.solution.associative.solve_associative import solve_associative
 from mbla.solution.mechanics import lifted, mechanics_of
 from mbla.solution.solution import Mechanics
-from mbla.solution.verification.further_claims import least_check
+from mbla.solution.verification.least import least_check
 from mbla.solution.verification.residuals import Residuals
 from tests.line import Line, line_of
 from tests.solution.by_hand import EXACT, claim, cube, state
@@ -40,7 +40,7 @@ def seen(monkeypatch: pytest.MonkeyPatch) -> dict[str, Any]:
         residuals: Residuals = of["residuals"]
         return residuals
 
-    monkeypatch.setattr("mbla.solution.verification.further_claims.residuals_of", residuals_of)
+    monkeypatch.setattr("mbla.solution.verification.least.residuals_of", residuals_of)
     return of
 
 

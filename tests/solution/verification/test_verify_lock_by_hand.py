@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from mbla.solution.verification.further_claims import lock_failures
+from mbla.solution.verification.lock import lock_failures
 from tests.line import BLOCK, Line, line_of
 from tests.solution.by_hand import cube, loaded, on_ground
 

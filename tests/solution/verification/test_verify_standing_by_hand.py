@@ -14,7 +14,7 @@ from mbla.program.reductions import reduce_program
 from mbla.program.reductions.steps import ReductionSwitches
 from mbla.solution.solution import Standing
 from mbla.solution.standing.standing import assess_dead_load
-from mbla.solution.verification.further_claims import standing_failures
+from mbla.solution.verification.standing import standing_failures
 from mbla.solution.verification.statics import contact_resultants
 from tests.line import BLOCK, Line, line_of
 from tests.solution.by_hand import cube, loaded, on_ground
@@ -177,7 +177,7 @@ def test_of_large_forces_more_may_be_rounding() -> None:
 
 def test_guided_blocks_keep_to_their_guides(dry: Line, monkeypatch: pytest.MonkeyPatch) -> None:
     for off, told in ((1e-9, ()), (1.01e-9, ("guided blocks are displaced against their guides",))):
-        monkeypatch.setattr("mbla.solution.verification.further_claims.off_guides", lambda *_, off=off: off)
+        monkeypatch.setattr("mbla.solution.verification.standing.off_guides", lambda *_, off=off: off)
         assert failures(dry) == told
 
 

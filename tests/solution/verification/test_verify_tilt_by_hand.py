@@ -11,7 +11,7 @@ import pytest
 
 from mbla.model.model import LoadCase, Tilt
 from mbla.solution.solution import Status
-from mbla.solution.verification.further_claims import never_failures, tilt_failures
+from mbla.solution.verification.tilting_table import never_failures, tilt_failures
 from tests.line import Line
 from tests.solution.by_hand import claim, cube, found, state
 

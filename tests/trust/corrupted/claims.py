@@ -21,7 +21,9 @@ from mbla.results.hdf5.result_file import write_results_hdf5
 from mbla.results.results import CaseResult, Results
 from mbla.results.verify import rebuilt, recomputed
 from mbla.run import run
+from mbla.solution.further.further import Further
 from mbla.solution.pushover.pushed import CurveEnd
+from mbla.solution.pushover.pushover import NOT_PUSHED, Pushover
 from mbla.solution.pushover.record import PushedRows, RowPoints
 from mbla.solution.solution import Mechanics, Solution
 from tests.decks.folder import PATHS
@@ -126,7 +128,13 @@ def _of_case(
 
 
 def _with(case: CaseResult, **changes: Any) -> CaseResult:
-    return replace(case, solution=replace(case.solution, **changes))
+    """A case with another solution; further results go by their own names, and those of a pushover."""
+    solution = case.solution
+    further, pushover = solution.further, solution.further.pushover
+    own = {name: changes.pop(name) for name in list(changes) if name in Pushover.__dataclass_fields__}
+    others = {name: changes.pop(name) for name in list(changes) if name in Further.__dataclass_fields__}
+    further = replace(further, **{"pushover": replace(pushover, **own), **others})
+    return replace(case, solution=replace(solution, further=further, **changes))
 
 
 def _case_removed(results: Results, generator: random.Random) -> Results | None:
@@ -149,11 +157,11 @@ def _some_of_a_series_removed(results: Results, generator: random.Random) -> Res
 
 def _rows_cut_off(results: Results, generator: random.Random) -> Results | None:
     def cut(case: CaseResult) -> CaseResult | None:
-        steps = case.solution.pushed
+        steps = case.solution.further.pushover.rows
         if steps is None or len(steps) < 3:
             return None
         rows = generator.randint(1, len(steps) - 1)
-        return _with(case, pushed=first_of(steps, rows), curve=case.solution.curve[:rows])
+        return _with(case, rows=first_of(steps, rows), curve=case.solution.further.pushover.curve[:rows])
 
     return _of_case(results, generator, cut)
 
@@ -169,8 +177,8 @@ def first_of(every: PushedRows, rows: int) -> PushedRows:
 
 def _another_end(results: Results, generator: random.Random) -> Results | None:
     def end(case: CaseResult) -> CaseResult | None:
-        others = [each for each in CurveEnd if each not in (CurveEnd.NONE, case.solution.curve_end)]
-        return None if case.solution.pushed is None else _with(case, curve_end=generator.choice(others))
+        others = [each for each in CurveEnd if each not in (CurveEnd.NONE, case.solution.further.pushover.curve_end)]
+        return None if case.solution.further.pushover.rows is None else _with(case, curve_end=generator.choice(others))
 
     return _of_case(results, generator, end)
 
@@ -185,8 +193,7 @@ def _left_out(what: str, none: object, identifier: str, words: str) -> Forgery:
             solution = case.solution
             if not _present(solution, what):
                 return None
-            more = {"curve": (), "curve_end": CurveEnd.NONE} if what == "pushed" else {}
-            return _with(case, **{what: none}, **more, remarks=(*solution.remarks, *said))
+            return _with(case, **{what: none}, remarks=(*solution.remarks, *said))
 
         return _of_case(results, generator, change)
 
@@ -196,8 +203,8 @@ def _left_out(what: str, none: object, identifier: str, words: str) -> Forgery:
 def _present(solution: Solution, what: str) -> bool:
     if what == "associative" and solution.flow_rule == "associative":
         return False  # the case's own answer is that one
-    part = getattr(solution, what)
-    return part is not None and part != ()
+    part = getattr(solution.further if what in Further.__dataclass_fields__ else solution, what)
+    return part is not None and part not in ((), NOT_PUSHED)
 
 
 def _least(change: Callable[[CaseResult, Mechanics, random.Random], Mechanics | None]) -> Forgery:
@@ -343,7 +350,9 @@ FORGERIES: Mapping[str, Forgery] = {
     "positions or ends removed": _some_of_a_series_removed,
     "rows of a pushover cut off": _rows_cut_off,
     "another end of a pushover": _another_end,
-    "pushover removed": _left_out("pushed", None, "pushover-not-done", "there is no pushover: joints can crush"),
+    "pushover removed": _left_out(
+        "pushover", NOT_PUSHED, "pushover-not-done", "there is no pushover: joints can crush"
+    ),
     "slopes removed": _left_out("sensitivity", (), "sensitivity-not-done", "there is no sensitivity: it is not proved"),
     "geometric safety removed": _left_out(
         "geometric_safety", None, "geometric-safety-not-done", "there is no geometric factor of safety: there are ties"

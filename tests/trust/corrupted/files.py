@@ -24,7 +24,6 @@ blocks: [{mesh: {group: block, material: stone, file: parts/block.obj, up: z, un
 contacts: {joint: dry}
 supports: [{ground: {z: 0}}]
 load_cases: {push: {live: [{acceleration: [1, 0, 0]}]}, back: {live: [{acceleration: [-1, 0, 0.2]}]}}
-analysis: {force_ranges: true}
 """,
     "parts/dry.yaml": "mbla: 1\njoints: {dry: {friction: 0.3}}\n",
     "parts/block.obj": """\

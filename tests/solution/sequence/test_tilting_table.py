@@ -11,11 +11,12 @@ import pytest
 
 from mbla.model.model import LoadCase
 from mbla.program import assemble
-from mbla.solution import tilt
+from mbla.solution.sequence import tilting_table
+from mbla.solution.sequence.sequence import answer_of
+from mbla.solution.sequence.solved_case import SolvedCase
+from mbla.solution.sequence.tilting_table import falls_at_once, never_collapses, tilt_angles
 from mbla.solution.solution import Checks, Solution, Status
-from mbla.solution.tilt import Answer, never_collapses, tilt_angles
-from mbla.solution.trials import Trials
-from mbla.solution.verification.further_claims import never_failures, tilt_failures
+from mbla.solution.verification.tilting_table import never_failures, tilt_failures
 from mbla.solution.verification.verify import verify
 from mbla.solution.verification.verify_points import verified_status
 from tests.line import Line, line_of, solution_of
@@ -49,15 +50,12 @@ analysis: {flow_rule: associative}
 """
 
 
-def answered(line: Line, ask: Callable[[LoadCase], tuple[Solution, Checks]]) -> Answer:
+def answered(line: Line, ask: Callable[[LoadCase], tuple[Solution, Checks]]) -> SolvedCase:
     """The search for the angle, each load case answered by ``ask``."""
-    trials = Trials(tilt_angles(line.assembly, line.load_case))
-    for case in trials:
-        trials.answer = Answer(case, *ask(case))
-    return trials.answer
+    return answer_of(tilt_angles(line.assembly, line.load_case), lambda case: SolvedCase(case, *ask(case)))
 
 
-def turned(text: str, *overrides: str) -> Answer:
+def turned(text: str, *overrides: str) -> SolvedCase:
     line = line_of(text, *overrides)
 
     def ask(case: LoadCase) -> tuple[Solution, Checks]:
@@ -67,10 +65,10 @@ def turned(text: str, *overrides: str) -> Answer:
 
     answer = answered(line, ask)
     checks = verify(line.assembly, answer.load_case, answer.solution)
-    return Answer(answer.load_case, answer.solution, checks)
+    return SolvedCase(answer.load_case, answer.solution, checks)
 
 
-def angle(answer: Answer) -> float:
+def angle(answer: SolvedCase) -> float:
     tilt = answer.load_case.tilt
     assert tilt is not None
     assert verified_status(answer.solution, answer.checks) is Status.SOLVED
@@ -149,7 +147,7 @@ def test_of_what_may_collapse_between_nothing_is_claimed() -> None:
     assert unproved.status is Status.NOT_VERIFIED
 
 
-def answer_as_solved(answer: Answer) -> Answer:
+def answer_as_solved(answer: SolvedCase) -> SolvedCase:
     return replace(answer, solution=replace(answer.solution, status=Status.SOLVED))
 
 
@@ -217,12 +215,12 @@ def test_at_once_is_within_what_rounding_leaves_of_an_angle(
     text = text.replace("axis: [0, 1, 0]", "axis: [0, 1, 0.2]")
     answer = turned(text, "parameters.mu=0", "parameters.f=1")
     assert answer.load_case.tilt is not None
-    monkeypatch.setattr(Answer, "next_angle", lambda answer, tilt: crossing)
-    assert answer.falls_at_once(answer.load_case.tilt) is at_once
-    assert not replace(answer, solution=carrying(answer, 1e-5)).falls_at_once(answer.load_case.tilt)
+    monkeypatch.setattr(tilting_table, "next_angle", lambda tilt, found: crossing)
+    assert falls_at_once(answer.load_case.tilt, answer) is at_once
+    assert not falls_at_once(answer.load_case.tilt, replace(answer, solution=carrying(answer, 1e-5)))
 
 
-def carrying(answer: Answer, load_factor: float) -> Solution:
+def carrying(answer: SolvedCase, load_factor: float) -> Solution:
     mechanics = answer.solution.mechanics
     assert mechanics is not None
     return replace(answer.solution, mechanics=replace(mechanics, load_factor=load_factor))
@@ -281,7 +279,7 @@ def test_secants_lead_to_the_angle_without_normality() -> None:
 
 @pytest.mark.parametrize(("most", "status"), [(1, Status.NOT_VERIFIED), (3, Status.APPROXIMATE)])
 def test_an_angle_that_does_not_settle_is_no_answer(most: int, status: Status, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(tilt, "MOST_STEPS", most)
+    monkeypatch.setattr(tilting_table, "MOST_STEPS", most)
     answer = turned(GROOVE)
     assert answer.solution.status is status
     assert "the angle did not settle: its load factor differs from 1 by" in answer.solution.reason
@@ -302,7 +300,7 @@ def made(factor: float, crossing: float, *, static_bound: float = 0.1) -> tuple[
     return claim(bounding), found(static_bound=static_bound)
 
 
-def searched(factors: Callable[[float], tuple[float, float]]) -> Answer:
+def searched(factors: Callable[[float], tuple[float, float]]) -> SolvedCase:
     """The search over made-up answers: load factor and bounding angle for every angle in degrees, nan for level."""
     line = line_of(METRES, "parameters.c=4000")
 
@@ -317,11 +315,11 @@ def test_a_line_made_up_is_left_where_it_says() -> None:
     solution, checks = made(0.7, 25.0)
     line = line_of(METRES, "parameters.c=4000")
     assert line.load_case.tilt is not None
-    next_angle = Answer(line.load_case, solution, checks).next_angle(line.load_case.tilt)
+    next_angle = tilting_table.next_angle(line.load_case.tilt, SolvedCase(line.load_case, solution, checks))
     assert math.degrees(next_angle) == pytest.approx(25.0, rel=1e-12)
 
 
-def tried(answer: Answer) -> str:
+def tried(answer: SolvedCase) -> str:
     return next(remark for remark in answer.solution.remarks if "angles tried" in remark).split("angles tried: ")[1]
 
 

@@ -12,7 +12,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Generic, TypeAlias
 
-from mbla.solution.limits.samples import S, Sample, Zero, apart, is_zero, steep
+from mbla.solution.further.zeros.samples import S, Sample, Zero, apart, is_zero, steep
 
 MOST = 50
 """Evaluations for one end: bisection alone reaches rounding within that"""

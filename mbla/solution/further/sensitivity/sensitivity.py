@@ -22,9 +22,16 @@ from mbla.deck.sections.materials import JointLaw
 from mbla.deck.text.tree import KeyPath
 from mbla.errors import Message
 from mbla.model.model import Joint, LoadCase
-from mbla.solution.sensitivity.lagrangian import State, lagrangian, load_power, pressure_on, resistance, state_of
-from mbla.solution.sensitivity.slopes import Side, Slope
-from mbla.solution.sensitivity.structures import Structure, guides_allow, structure_with
+from mbla.solution.further.sensitivity.lagrangian import (
+    State,
+    lagrangian,
+    load_power,
+    pressure_on,
+    resistance,
+    state_of,
+)
+from mbla.solution.further.sensitivity.slopes import Side, Slope
+from mbla.solution.further.sensitivity.structures import Structure, guides_allow, structure_with
 from mbla.solution.solution import Checks, Solution
 from mbla.solution.thresholds import GAP_TOLERANCE
 
@@ -64,16 +71,14 @@ def no_sensitivity(against: str) -> Message:
     return Message("sensitivity-not-done", f"there is no sensitivity: {against}")
 
 
-def with_sensitivity(
+def sensitivity_of(
     deck: Deck, assembly: Assembly, load_case: LoadCase, solution: Solution, checks: Checks
-) -> Solution:
-    """The solution with the slopes that the deck asks for, or with a remark on why there are none."""
-    if deck.analysis.sensitivity is False:
-        return solution
+) -> tuple[tuple[Slope, ...], tuple[Message, ...]]:
+    """The slopes that the deck asks for, or a remark on why there are none."""
     against = why_no_sensitivity(load_case, solution, checks)
     if against:
-        return replace(solution, remarks=(*solution.remarks, no_sensitivity(against)))
-    return replace(solution, sensitivity=tuple(slopes(deck, Structure(assembly, load_case), solution)))
+        return (), (no_sensitivity(against),)
+    return tuple(slopes(deck, Structure(assembly, load_case), solution)), ()
 
 
 def slope_by(

@@ -5,9 +5,9 @@ structure with the live load ``across`` has the tangent of the angle for its loa
 
 Else the loads of the angle t itself must be those at collapse. Of an angle t the load factor λ of the line from the
 level loads to those at t is found; λ < 1 says that t is too large. Associative flow: its mechanism gives a line that no
-load that can be borne passes (:mod:`mbla.solution.tilt_circle`), and the table leaves it at the next angle. All these
-angles are too large, and they fall to the angle of collapse as Newton's method does, or in one step where a straight
-part of the limit decides. Other flow: λ = 1 is found by secants, as nothing bounds the loads that are borne.
+load that can be borne passes (:mod:`mbla.solution.sequence.tilt_circle`), and the table leaves it at the next angle.
+All these angles are too large, and they fall to the angle of collapse as Newton's method does, or in one step where a
+straight part of the limit decides. Other flow: λ = 1 is found by secants, as nothing bounds the loads that are borne.
 
 What the limit cuts off between the level table and the angle found would be a collapse before it. It is ruled out if
 the level table bears tan(t/2) times the load across: the tangents of the circle at both ends meet there.
@@ -16,31 +16,21 @@ the level table bears tan(t/2) times the load across: the tangents of the circle
 from __future__ import annotations
 
 import math
-from collections.abc import Generator
-from dataclasses import dataclass, replace
-from typing import TypeAlias
+from dataclasses import replace
 
-import numpy as np
-
-from mbla.arrays import FloatArray
 from mbla.assembly.assembly import Assembly
-from mbla.contacts.contacts import Contacts
 from mbla.errors import Message
-from mbla.model.model import LoadCase, Model, Tilt
-from mbla.solution.solution import WITH_VALUE, Checks, Mechanics, Solution, Status
-from mbla.solution.tilt_circle import AT_ONCE, chord, line_of, never_left
-from mbla.solution.verification.further_claims import SAME_LOADS, only_direction_counts
-from mbla.solution.verification.verify import level_bound
-
-Angles: TypeAlias = Generator[LoadCase, "Answer", "Answer"]
-"""Load cases to be solved and verified one after the other; each comes back as an answer, and the last is returned."""
+from mbla.model.model import LoadCase, Tilt
+from mbla.solution.sequence.solved_case import AnalysisSequence, SolvedCase
+from mbla.solution.sequence.tilt_circle import AT_ONCE, chord, line_of, never_left
+from mbla.solution.solution import Solution, Status
+from mbla.solution.verification.tilting_table import GOOD, only_direction_counts
+from mbla.solution.verification.verify import level_bound, verify
 
 ENDED = 1e-9
 """distance of the load factor from 1 at which the angle is that of collapse: below what the bounds resolve"""
 SETTLED = 1e-10
 """change of the angle in radians below which steps are rounding"""
-GOOD = 1e-6
-"""distance of the load factor from 1 up to which the case may be called solved"""
 NEAR = 1e-2
 """distance up to which it is approximate; beyond, the angle is no result"""
 MOST_STEPS = 16
@@ -57,38 +47,13 @@ NOT_PROVED_BETWEEN = Message(
 )
 
 
-@dataclass(frozen=True)
-class Answer:
-    """The last request and its answer."""
-
-    load_case: LoadCase
-    solution: Solution
-    checks: Checks
-
-    @property
-    def bounding(self) -> Mechanics | None:
-        """The mechanism that bounds the loads, with a load factor that holds."""
-        return self.solution.associative
-
-    @property
-    def load_factor(self) -> float:
-        """By the flow rule of the analysis; inf where no multiple brings it down, nan where there is none."""
-        if self.solution.status is Status.UNBOUNDED:
-            return math.inf
-        known = self.solution.mechanics is not None and self.solution.status in WITH_VALUE
-        return self.solution.mechanics.load_factor if known and self.solution.mechanics is not None else math.nan
-
-    def next_angle(self, tilt: Tilt) -> float:
-        """Angle that the mechanism bounds, inf where it bounds none."""
-        found = self.bounding
-        return math.inf if found is None else line_of(tilt, found, found.load_factor).first_crossing()
-
-    def falls_at_once(self, tilt: Tilt) -> bool:
-        """Whether nothing of the change of the loads is borne, so that every turn brings it down."""
-        return abs(self.load_factor) <= GOOD and self.next_angle(tilt) <= BY_LINE
+def tilting_table(assembly: Assembly, load_case: LoadCase) -> AnalysisSequence:
+    """The angle of collapse, verified with what was found of the level table, which proves what lies before it."""
+    found = yield from tilt_angles(assembly, load_case)
+    return replace(found, checks=verify(assembly, found.load_case, found.solution))
 
 
-def tilt_angles(assembly: Assembly, load_case: LoadCase) -> Angles:
+def tilt_angles(assembly: Assembly, load_case: LoadCase) -> AnalysisSequence:
     """The angle of collapse, in ``tilt.angle`` or as tangent by the load factor, with the loads and forces there."""
     tilt = load_case.tilt
     assert tilt is not None  # that is why it is requested
@@ -97,7 +62,7 @@ def tilt_angles(assembly: Assembly, load_case: LoadCase) -> Angles:
     level = replace(level, load_case=replace(load_case, tilt=replace(tilt, tangent=tangent)))
     if math.isnan(level.load_factor) or (tangent and math.isfinite(level.load_factor)):
         return level
-    start = level.next_angle(tilt)
+    start = next_angle(tilt, level)
     if start <= AT_ONCE:  # the level table bears nothing more: an angle of 0, and so is its tangent
         return replace(level, load_case=replace(load_case, tilt=replace(tilt, tangent=True)))
     upright = level_bound(assembly, load_case, with_level(level.solution, level.solution))
@@ -107,7 +72,18 @@ def tilt_angles(assembly: Assembly, load_case: LoadCase) -> Angles:
     return search.with_words(found)
 
 
-def never_collapses(tilt: Tilt, found: Answer) -> Solution:
+def next_angle(tilt: Tilt, found: SolvedCase) -> float:
+    """Angle in radians that the associative mechanism bounds, inf where it bounds none."""
+    bounding = found.solution.associative
+    return math.inf if bounding is None else line_of(tilt, bounding, bounding.load_factor).first_crossing()
+
+
+def falls_at_once(tilt: Tilt, found: SolvedCase) -> bool:
+    """Whether it collapses at any tilt: nothing of the change of the loads is borne."""
+    return abs(found.load_factor) <= GOOD and next_angle(tilt, found) <= BY_LINE
+
+
+def never_collapses(tilt: Tilt, found: SolvedCase) -> Solution:
     """The solution of the last angle tried, which is no collapse of the table either."""
     if found.solution.status is Status.UNBOUNDED:
         return found.solution
@@ -123,47 +99,6 @@ def with_level(solution: Solution, level: Solution) -> Solution:
     return replace(solution, level=None if bears_all else level.associative, level_lock=level.lock)
 
 
-def leads_across(tilt: Tilt, live_load: FloatArray) -> bool:
-    """Whether a live load, (n_blocks, 6), is that of the level table across, which leads to no angle."""
-    off = float(np.abs(live_load - tilt.across).max(initial=0.0))
-    return off <= SAME_LOADS * float(np.abs(tilt.across).max(initial=0.0))
-
-
-def angle_of_load(tilt: Tilt, live_load: FloatArray) -> float:
-    """Angle in radians to which a live load leads from the level table, whether it is that of collapse or not."""
-    size = max(float(np.abs(tilt.across).max(initial=0.0)), np.finfo(np.float64).tiny)
-    columns = np.column_stack([tilt.across.ravel(), -tilt.turning.ravel()]) / size
-    (across, lowered), *_ = np.linalg.lstsq(columns, live_load.ravel() / size)
-    return float(np.arctan2(across, 1.0 - lowered))
-
-
-def found_tangent(model: Model, contacts: Contacts, tilt: Tilt, live_load: FloatArray, solution: Solution) -> bool:
-    """Whether a run states the load factor of a live load as tangent of the angle.
-
-    It does of the load across the level table where only directions count, and where that table bears nothing of it.
-    """
-    found = solution.associative
-    if found is None or solution.status not in WITH_VALUE or not leads_across(tilt, live_load):
-        return tilt.tangent
-    at_once = line_of(tilt, found, found.load_factor).first_crossing() <= AT_ONCE
-    return at_once or only_direction_counts(model, contacts, tilt)
-
-
-def found_angle(tilt: Tilt, live_load: FloatArray, solution: Solution) -> float:
-    """The angle of collapse in degrees that a run states of a live load and the load factor found for it.
-
-    nan where the load factor is its tangent, where the load leads to none, and where the table does not collapse there.
-    """
-    own = solution.mechanics
-    if tilt.tangent or leads_across(tilt, live_load) or (own is not None and own.load_factor > 1.0 + GOOD):
-        return math.nan
-    angle = math.degrees(angle_of_load(tilt, live_load))
-    if own is None:
-        return math.nan if math.isnan(tilt.angle) else angle
-    at_once = abs(own.load_factor) <= GOOD and tilt.angle == 0.0
-    return 0.0 if at_once else angle
-
-
 class _Search:
     """Answers at one angle after the other."""
 
@@ -172,7 +107,7 @@ class _Search:
         self.angles: list[float] = []
         self.seconds = 0.0
 
-    def at(self, angle: float) -> Angles:
+    def at(self, angle: float) -> AnalysisSequence:
         """The answer of the line from the level loads to those at an angle."""
         tilt = replace(self.tilt, angle=math.degrees(angle))
         case = replace(self.load_case, live_load=chord(tilt, angle), tilt=tilt)
@@ -181,27 +116,27 @@ class _Search:
         self.seconds += answer.solution.seconds
         return answer
 
-    def from_probes(self) -> Angles:
+    def from_probes(self) -> AnalysisSequence:
         """From the first of some angles that is too large; the last of them where none is."""
         for angle in PROBES:
             answer = yield from self.at(angle)
-            if answer.falls_at_once(self.tilt):
+            if falls_at_once(self.tilt, answer):
                 return answer
             if not answer.load_factor > 1.0:
-                start = answer.next_angle(self.tilt)
+                start = next_angle(self.tilt, answer)
                 if not math.isfinite(answer.load_factor):
                     return answer
                 return (yield from self.from_angle(min(start, angle)))
         return answer
 
-    def from_angle(self, angle: float) -> Angles:
+    def from_angle(self, angle: float) -> AnalysisSequence:
         """Down to the angle whose load factor is 1, from one that is too large."""
         steps: list[tuple[float, float]] = []
         angle = max(angle, AT_ONCE)  # of no turn at all the loads would not change
         for _ in range(MOST_STEPS):
             answer = yield from self.at(angle)
             factor = answer.load_factor
-            if not math.isfinite(factor) or abs(factor - 1.0) <= ENDED or answer.falls_at_once(self.tilt):
+            if not math.isfinite(factor) or abs(factor - 1.0) <= ENDED or falls_at_once(self.tilt, answer):
                 return answer
             steps.append((angle, factor))
             following = self._next(answer, steps)
@@ -210,34 +145,34 @@ class _Search:
             angle = following
         return answer
 
-    def _next(self, answer: Answer, steps: list[tuple[float, float]]) -> float:
+    def _next(self, answer: SolvedCase, steps: list[tuple[float, float]]) -> float:
         angle, factor = steps[-1]
         if answer.solution.flow_rule == "associative":
-            return answer.next_angle(self.tilt)
+            return next_angle(self.tilt, answer)
         if len(steps) > 1 and steps[-2][1] != factor:
             before, other = steps[-2]
             return angle + (1.0 - factor) * (angle - before) / (factor - other)
         own = answer.solution.mechanics
         return math.inf if own is None else line_of(self.tilt, own, factor).first_crossing()
 
-    def before(self, found: Answer) -> Angles:
+    def before(self, found: SolvedCase) -> AnalysisSequence:
         """The same, or an earlier collapse where nothing proves that the table gets so far."""
         angle = math.radians(found.load_case.tilt.angle) if found.load_case.tilt is not None else math.nan
         if (
-            found.falls_at_once(self.tilt)
+            falls_at_once(self.tilt, found)
             or not found.load_factor <= 1.0 + GOOD
             or self.tilt.upright >= math.tan(angle / 2.0)
         ):
             return found
         for step in range(1, BETWEEN):
             answer = yield from self.at(angle * step / BETWEEN)
-            if answer.falls_at_once(self.tilt):
+            if falls_at_once(self.tilt, answer):
                 return answer
             if answer.load_factor < 1.0 - GOOD:
-                return (yield from self.from_angle(min(answer.next_angle(self.tilt), angle * step / BETWEEN)))
+                return (yield from self.from_angle(min(next_angle(self.tilt, answer), angle * step / BETWEEN)))
         return found
 
-    def with_words(self, found: Answer) -> Answer:
+    def with_words(self, found: SolvedCase) -> SolvedCase:
         """With remarks on the search."""
         solution, tilt = found.solution, found.load_case.tilt
         assert tilt is not None  # every answer has one
@@ -248,7 +183,7 @@ class _Search:
         if factor > 1.0 + GOOD:
             solution = never_collapses(tilt, found)
             tilt = replace(tilt, angle=math.nan)
-        elif found.falls_at_once(self.tilt):
+        elif falls_at_once(self.tilt, found):
             at_once = "It collapses as soon as it turns: the level structure bears nothing of the change"
             remarks.append(Message("tilt-by-steps", at_once))
             tilt = replace(tilt, angle=0.0)
@@ -259,4 +194,4 @@ class _Search:
         elif not self.tilt.upright >= math.tan(angle / 2.0):
             remarks.append(NOT_PROVED_BETWEEN)
         solution = replace(solution, remarks=(*solution.remarks, *remarks), seconds=self.seconds)
-        return Answer(replace(found.load_case, tilt=tilt), with_level(solution, self.level), found.checks)
+        return SolvedCase(replace(found.load_case, tilt=tilt), with_level(solution, self.level), found.checks)

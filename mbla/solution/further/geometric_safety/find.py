@@ -1,4 +1,4 @@
-"""The geometric factor of safety: by how much every joint may shrink about its middle before the dead load falls.
+"""The geometric factor of safety of a dead load, from its zero of the pressure in joints that shrink.
 
 With every joint shrunk to s about its centroid, x = c + s (x₁ − c), the dead load is carried from some s on: what a
 smaller joint carries, a larger one does. 1/s is the factor (Heyman 1966, doi:10.1016/0020-7683(66)90018-7: of an
@@ -19,29 +19,29 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from mbla.assembly.assembly import Assembly
-from mbla.assembly.lift import motions_of_bodies
 from mbla.contacts.contacts import Contacts
 from mbla.deck.sections.analysis import AnalysisSection
 from mbla.errors import Message
 from mbla.model import Model
 from mbla.model.model import LoadCase
 from mbla.program.build import crushable_interfaces
-from mbla.solution.associative.proofs import associative_bounds
 from mbla.solution.cone_solvers.cone_solution import Log
-from mbla.solution.limits.joint_pressure import JointPressure, joint_pressure, pressed_by, unit_of_pressure
-from mbla.solution.limits.samples import Zero
-from mbla.solution.limits.zeros import find_zero
-from mbla.solution.sensitivity.structures import Structure
-from mbla.solution.solution import GeometricSafety, Mechanics, Solution
-from mbla.solution.verification.case import Case
+from mbla.solution.further.geometric_safety.geometric_safety import (
+    LEAST,
+    MOST,
+    TOLERANCE,
+    GeometricSafety,
+    shrunk,
+    shrunk_contacts,
+)
+from mbla.solution.further.geometric_safety.joint_pressure import JointPressure, joint_pressure
+from mbla.solution.further.sensitivity.structures import Structure
+from mbla.solution.further.zeros.samples import Zero
+from mbla.solution.further.zeros.zeros import find_zero
+from mbla.solution.solution import Mechanics
+from mbla.solution.verification.geometric_safety import proved
 from mbla.solution.verification.statics import contact_velocities
 
-LEAST, MOST = 1.0 / 16.0, 1000.0
-"""Factors between which it is looked for"""
-TOLERANCE = 1e-6
-"""of the factor, relative; it is proved to lie between two that are twice that apart"""
-APART = 1e-4
-"""of the factor, relative: two further apart prove none; 2e-6 is usual, accuracy draft leaves up to 5e-5"""
 STEP = 1.1
 """From one factor to the next at least, until one on the other side is found"""
 
@@ -57,30 +57,18 @@ class _Try:
     known: float = 0.0
 
 
-def shrunk(assembly: Assembly, size: float) -> Assembly:
-    """The assembly with joints of a size."""
-    return replace(assembly, contacts=_shrunk(assembly.contacts, size))
-
-
-def _shrunk(contacts: Contacts, size: float) -> Contacts:
-    """The contacts with every point moved towards the centroid of its interface; areas stay."""
-    middle = contacts.centroids[contacts.interface_of_point]
-    return replace(contacts, points=middle + size * (contacts.points - middle))
-
-
-def with_geometric_safety(
-    assembly: Assembly, load_case: LoadCase, solution: Solution, analysis: AnalysisSection, log: Log
-) -> Solution:
-    """The solution with the factor of its dead load, verified, or with a remark on why there is none."""
+def geometric_safety_of(
+    assembly: Assembly, load_case: LoadCase, analysis: AnalysisSection, log: Log
+) -> tuple[GeometricSafety | None, tuple[Message, ...]]:
+    """The factor of the dead load of a case, verified; None without, and a remark on why there is none."""
     against = why_no_geometric_safety(assembly.model, assembly.contacts, load_case, analysis)
     found = None if against else geometric_safety(Structure(assembly, load_case), analysis, log)
     if found is None:
         why = (
             against or "forces that carry the dead load are found at no size of the joints, or a wedge holds it at any"
         )
-        return replace(solution, remarks=(*solution.remarks, no_geometric_safety(why)))
-    verified = proved(assembly, load_case, found)
-    return replace(solution, geometric_safety=replace(found, verified=verified))
+        return None, (no_geometric_safety(why),)
+    return replace(found, verified=proved(assembly, load_case, found)), ()
 
 
 def no_geometric_safety(why: str) -> Message:
@@ -153,7 +141,7 @@ def _slope(structure: Structure, found: JointPressure) -> float:
     if mechanics is None:
         return np.nan
     model, contacts, motion = structure.model, structure.contacts, mechanics.mechanism
-    whole, none = (contact_velocities(model, _shrunk(contacts, size), motion) for size in (1.0, 0.0))
+    whole, none = (contact_velocities(model, shrunk_contacts(contacts, size), motion) for size in (1.0, 0.0))
     return -float((mechanics.contact_forces * (whole - none)).sum())
 
 
@@ -172,34 +160,3 @@ def _result(ends: tuple[_Try, ...], solves: int) -> GeometricSafety | None:
         solves=solves,
         verified=False,
     )
-
-
-def proved(assembly: Assembly, load_case: LoadCase, safety: GeometricSafety) -> bool:
-    """Whether forces and mechanisms prove that the dead load stands at one end and falls at the other, next to it.
-
-    The load factors are to be those of the forces and mechanisms too; without an end that falls, the one that stands is
-    the least size that is looked for.
-    """
-    next_to_it = safety.most <= (1.0 + APART) * safety.factor
-    if not (next_to_it or (len(safety.sizes) == 1 and safety.factor >= (1.0 - TOLERANCE) * MOST)):
-        return False
-    bounds = []
-    for row, size in enumerate(safety.sizes):
-        whole = Structure(shrunk(assembly, float(size)), load_case)
-        posed = pressed_by(whole, float(safety.pressed[row]), unit_of_pressure(whole))
-        bodies = posed.assembly.glued(load_case)
-        state = Mechanics(
-            load_factor=float(safety.load_factors[row]),
-            contact_forces=safety.forces[row],
-            contact_velocities=np.zeros_like(safety.forces[row]),
-            mechanism=motions_of_bodies(bodies, safety.mechanisms[row]),
-            modes=np.zeros(len(assembly.contacts.points), dtype=np.int64),
-        )
-        case = Case(bodies.model, bodies.contacts, bodies.load_case(posed.load_case))
-        bounds.append(associative_bounds(case, state))
-    for own, (least, most) in zip(safety.load_factors, bounds, strict=True):
-        room = TOLERANCE * abs(own)
-        if not np.isfinite(own) or own < least - room or own > most + room:
-            return False
-    stands = bounds[0][0] >= safety.pressed[0]
-    return bool(stands and (len(bounds) == 1 or bounds[1][1] < safety.pressed[1]))

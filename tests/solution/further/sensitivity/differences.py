@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from random import Random
 
-from mbla.solution.sensitivity.slopes import Slope
+from mbla.solution.further.sensitivity.slopes import Slope
 from mbla.solution.solution import Status
 from tests.line import case_of
 

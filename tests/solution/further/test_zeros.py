@@ -8,8 +8,8 @@ from dataclasses import dataclass
 
 import pytest
 
-from mbla.solution.limits.samples import Zero
-from mbla.solution.limits.zeros import MOST, find_zeros, is_level, scan
+from mbla.solution.further.zeros.samples import Zero
+from mbla.solution.further.zeros.zeros import MOST, find_zeros, is_level, scan
 
 NAN = math.nan
 Function = Callable[[float], tuple[float, float]]

@@ -13,23 +13,15 @@ import math
 from dataclasses import replace
 
 from mbla.arrays import FloatArray
+from mbla.assembly.assembly import Assembly
 from mbla.assembly.rigid_bodies import RigidBodies
 from mbla.model.model import LoadCase
 from mbla.model.settlement import with_reference
+from mbla.solution.sequence.settlement import HIGH, forces_at_rest, started
+from mbla.solution.sequence.solved_case import AnalysisSequence, SolvedCase
+from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import WITH_VALUE, Status
-from mbla.solution.tilt import Angles, Answer
 from mbla.solution.verification.statics import contact_resultants
-
-MARGIN = 1e-9
-"""Added to a reaction at rest, over its unit: where statics alone gives it, rounding must not make it too small to
-carry the loads."""
-
-NO_REACTION = 1e-11
-"""Reaction at rest over its unit that is rounding: it starts from nothing, for what hardly holds anything might not
-carry the margin."""
-
-HIGH = 10.0
-"""Reaction over its unit, more than any structure is likely to need."""
 
 NEAR = 1e-3
 """Distance over the unit of forces from which an end is found again that is near zero."""
@@ -45,14 +37,6 @@ NO_LIMIT = (
 )
 
 
-def started(load_case: LoadCase, at_rest: float) -> LoadCase:
-    """The load case of a settlement or objective with the reaction from which it starts, from one at rest."""
-    settlement = load_case.settlement
-    assert settlement is not None  # that is what has a reaction
-    nothing = abs(at_rest) <= NO_REACTION * settlement.unit
-    return with_reference(load_case, 0.0 if nothing else at_rest + MARGIN * settlement.unit)
-
-
 def measured_force(bodies: RigidBodies, contact_forces: FloatArray) -> float:
     """The force of an objective in the sense of its end, in the unit of contact forces, (n_points, 3).
 
@@ -65,15 +49,13 @@ def measured_force(bodies: RigidBodies, contact_forces: FloatArray) -> float:
     return float(bodies.load_cell.direction @ measured)
 
 
-def ends_of_force(load_case: LoadCase, at_rest: float | None) -> Angles:
-    """Load cases to be solved for one end; the last answer has it.
-
-    at_rest : the force, in the sense of the end, in some state that carries the loads; None where none was found
-    """
+def end_of_force(assembly: Assembly, load_case: LoadCase, settings: SolverSettings) -> AnalysisSequence:
+    """One end of the range of a force, from the least forces that carry the loads."""
     settlement = load_case.settlement
     assert settlement is not None  # that of the load cell
-    if at_rest is not None:
-        answer = yield started(load_case, at_rest)
+    total = forces_at_rest(assembly, load_case, settings)
+    if total is not None:
+        answer = yield started(load_case, measured_force(assembly.of(load_case), total))
         if answer.solution.status in (*WITH_VALUE, Status.UNBOUNDED, Status.TIME_LIMIT):
             return _in_words(answer)
     relieved = replace(load_case, live_load=-load_case.dead_load, settlement=None, objective=None)
@@ -88,7 +70,7 @@ def ends_of_force(load_case: LoadCase, at_rest: float | None) -> Angles:
     return (yield with_reference(load_case, value + max(abs(value), NEAR * settlement.unit)))
 
 
-def _in_words(answer: Answer) -> Answer:
+def _in_words(answer: SolvedCase) -> SolvedCase:
     """The answer, its reason in the words of forces where they have no limit."""
     if answer.solution.status is not Status.UNBOUNDED:
         return answer

@@ -22,7 +22,7 @@ from mbla.arrays import FloatArray
 from mbla.model.model import Joint
 from mbla.model.ties.moved import elongations
 from mbla.program.yield_conditions import YieldLimits
-from mbla.solution.sensitivity.structures import Structure
+from mbla.solution.further.sensitivity.structures import Structure
 from mbla.solution.solution import Mechanics, Solution
 from mbla.solution.verification.case import Case
 from mbla.solution.verification.interface_laws import crushing_power

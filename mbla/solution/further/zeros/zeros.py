@@ -8,7 +8,7 @@ them, or follows two steps that made little progress, is the middle. A value may
 stand, or one that no load brings down, is on one side, but has no size.
 
 A value that is zero as far as it is known, without a slope that tells where, may be one of a stretch of such values:
-its ends are looked for then (:mod:`mbla.solution.limits.stretches`).
+its ends are looked for then (:mod:`mbla.solution.further.zeros.stretches`).
 """
 
 from __future__ import annotations
@@ -17,8 +17,8 @@ import math
 from collections.abc import Callable, Iterator, Sequence
 from itertools import pairwise
 
-from mbla.solution.limits.samples import S, Sample, Zero, is_zero, level, steep
-from mbla.solution.limits.stretches import find_stretch, runs
+from mbla.solution.further.zeros.samples import S, Sample, Zero, is_zero, level, steep
+from mbla.solution.further.zeros.stretches import find_stretch, runs
 
 MOST = 50
 """Evaluations for one zero: bisection alone reaches rounding within that"""

@@ -9,11 +9,11 @@ from random import Random
 
 import pytest
 
-from mbla.solution.sensitivity.slopes import Side, Slope
+from mbla.solution.further.sensitivity.slopes import Side, Slope
 from mbla.solution.solution import Status
 from tests.decks.folder import ROOT
 from tests.line import BLOCK, WALL, case_of
-from tests.solution.sensitivity.differences import STEP, differences, random_text, tied_text
+from tests.solution.further.sensitivity.differences import STEP, differences, random_text, tied_text
 
 LAW, OF_GAP = 1e-5, 5.0
 """Share of the load factor over the parameter, or of the slope, that is exact; in space and where joints crush
@@ -25,7 +25,7 @@ def slopes_of(text: str, *overrides: str, flow_rule: str = "associative", keys: 
     analysis = f"{{flow_rule: {flow_rule}, accuracy: reference, sensitivity: {keys}}}"
     text = text.replace("analysis: {flow_rule: associative}", f"analysis: {analysis}")
     _, case = case_of(text, *overrides)
-    return {slope.parameter: slope for slope in case.solution.sensitivity}
+    return {slope.parameter: slope for slope in case.solution.further.sensitivity}
 
 
 def near(slope: Slope, value: float, elasticity: float) -> bool:
@@ -173,7 +173,7 @@ def test_random_ties(seed: int) -> None:
     assert case.solution.associative is not None
     factor = case.solution.associative.load_factor
     for number, value in enumerate(re.findall(r"s\d: ([\d.]+)", text)):
-        own = [each for each in case.solution.sensitivity if each.parameter.startswith(f"tie t{number}[")]
+        own = [each for each in case.solution.further.sensitivity if each.parameter.startswith(f"tie t{number}[")]
         share = sum(each.elasticity for each in own)
         slope = replace(own[0], parameter=f"parameters.s{number}", value=float(value))
         found, room = share * factor / float(value), LAW * factor / float(value)
@@ -203,7 +203,7 @@ def test_what_has_no_slope_says_so(change: tuple[str, str], words: str) -> None:
     said = [remark.words for remark in case.solution.remarks if remark.identifier == "sensitivity-not-done"]
     assert bool(said) == bool(words)
     assert all(words in text for text in said)
-    assert bool(case.solution.sensitivity) != bool(words)
+    assert bool(case.solution.further.sensitivity) != bool(words)
 
 
 @pytest.mark.every(2)
@@ -226,9 +226,9 @@ def compare(seed: int) -> None:
     mechanics = case.solution.mechanics
     if case.status is not Status.SOLVED or mechanics is None:
         pytest.skip("not solved")
-    assert case.solution.sensitivity
+    assert case.solution.further.sensitivity
     law = max(LAW, OF_GAP * case.checks.gap**0.5)
-    for slope in Random(seed).sample(case.solution.sensitivity, 3):
+    for slope in Random(seed).sample(case.solution.further.sensitivity, 3):
         found = differences(text, slope, mechanics.load_factor)
         if found is None:
             continue

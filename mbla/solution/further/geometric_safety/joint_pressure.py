@@ -16,15 +16,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from mbla.deck.sections.analysis import AnalysisSection
-from mbla.program.build import build_program
 from mbla.solution.cone_solvers.cone_solution import Log
-from mbla.solution.sensitivity.structures import Structure
+from mbla.solution.further.sensitivity.structures import Structure
+from mbla.solution.sequence.sequence import analysed
 from mbla.solution.settings import solver_settings
 from mbla.solution.solution import WITH_VALUE, Checks, Solution, Status
-from mbla.solution.solve import solve
 from mbla.solution.verification.statics import contact_resultants
-from mbla.solution.verification.verify import verify
-from mbla.solution.verification.verify_points import verified_status
 
 PRESSED = 100.0
 """Pressure at which it is searched for first, in units: most structures stand under that"""
@@ -74,12 +71,9 @@ def joint_pressure(structure: Structure, analysis: AnalysisSection, log: Log | N
     pressed, solves = PRESSED, 0
     while True:
         posed = pressed_by(structure, pressed, unit)
-        program = build_program(posed.assembly, posed.load_case, own)
-        solution = solve(program, settings, log)
-        checks = verify(posed.assembly, posed.load_case, solution)
-        status, solves = verified_status(solution, checks), solves + 1
-        if status is not Status.NO_EQUILIBRIUM or pressed >= MOST_PRESSED:
-            return JointPressure(posed, solution, checks, status, pressed, unit, solves)
+        found, solves = analysed(posed.assembly, posed.load_case, settings, log), solves + 1
+        if found.status is not Status.NO_EQUILIBRIUM or pressed >= MOST_PRESSED:
+            return JointPressure(posed, found.solution, found.checks, found.status, pressed, unit, solves)
         pressed *= 10.0
 
 

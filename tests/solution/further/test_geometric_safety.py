@@ -17,8 +17,10 @@ from mbla.results.listing.geometric_safety import geometric_safety_lines
 from mbla.results.outcome import case_notices
 from mbla.results.results import CaseResult
 from mbla.results.verify import verify_file
-from mbla.solution.limits.geometric_safety import proved
-from mbla.solution.solution import GeometricSafety, Status
+from mbla.solution.further.further import Further
+from mbla.solution.further.geometric_safety.geometric_safety import GeometricSafety
+from mbla.solution.solution import Status
+from mbla.solution.verification.geometric_safety import proved
 from tests.analytic.test_least_thickness import deck_text
 from tests.decks.folder import ROOT
 from tests.line import BLOCK, case_of, cases_of
@@ -34,8 +36,8 @@ STACK = LEANING.replace(
 def safety_of(text: str, *overrides: str) -> GeometricSafety:
     """Of a deck that has one."""
     _, case = case_of(text, *overrides)
-    assert case.solution.geometric_safety is not None
-    return case.solution.geometric_safety
+    assert case.solution.further.geometric_safety is not None
+    return case.solution.further.geometric_safety
 
 
 def test_block_under_a_leaning_gravity() -> None:
@@ -71,7 +73,7 @@ def test_an_arch_that_falls_has_less_than_1() -> None:
     text = deck_text(0.1, 86, 0.7).replace("flow_rule:", "geometric_safety: true, flow_rule:")
     _, case = case_of(text)
     assert case.status is Status.NO_EQUILIBRIUM
-    found = case.solution.geometric_safety
+    found = case.solution.further.geometric_safety
     assert found is not None
     assert found.factor == pytest.approx(0.1 / 0.10742599, rel=2 * NEAR)
     assert found.verified
@@ -121,7 +123,7 @@ def test_units_do_not_matter() -> None:
 )
 def test_what_has_none_says_so(text: str, overrides: tuple[str, ...], words: str) -> None:
     _, case = case_of(text, *overrides)
-    assert case.solution.geometric_safety is None
+    assert case.solution.further.geometric_safety is None
     said = [each.words for each in case.solution.remarks if each.identifier == "geometric-safety-not-done"]
     assert len(said) == 1
     assert words in said[0]
@@ -135,7 +137,7 @@ def leaning() -> tuple[Assembly, CaseResult]:
 
 def test_a_factor_that_is_too_large_is_not_proved(leaning: tuple[Assembly, CaseResult]) -> None:
     assembly, case = leaning
-    found = case.solution.geometric_safety
+    found = case.solution.further.geometric_safety
     assert found is not None
     assert proved(assembly, case.load_case, found)
     assert not proved(assembly, case.load_case, replace(found, sizes=0.999 * found.sizes))
@@ -161,7 +163,7 @@ def test_what_does_not_belong_to_its_proof_is_not_proved(
     forged: Callable[[GeometricSafety], GeometricSafety], leaning: tuple[Assembly, CaseResult]
 ) -> None:
     assembly, case = leaning
-    found = case.solution.geometric_safety
+    found = case.solution.further.geometric_safety
     assert found is not None
     assert not proved(assembly, case.load_case, forged(found))
 
@@ -175,12 +177,12 @@ def test_result_files_keep_it_and_verify_proves_it_again(tmp_path: Path) -> None
     assert disagreements == ()
     results = read_results_hdf5(path)
     (case,) = results.cases
-    safety = case.solution.geometric_safety
+    safety = case.solution.further.geometric_safety
     assert safety is not None
     bold = replace(safety, sizes=0.9 * safety.sizes)
-    slope = replace(case.solution.sensitivity[0], slope=1.0)
-    changed = replace(case.solution, geometric_safety=bold, sensitivity=(slope, *case.solution.sensitivity[1:]))
-    path.write_bytes(write_results_hdf5(replace(results, cases=(replace(case, solution=changed),))))
+    first, *others = case.solution.further.sensitivity
+    changed = Further(sensitivity=(replace(first, slope=1.0), *others), geometric_safety=bold)
+    path.write_bytes(write_results_hdf5(replace(results, cases=(case.with_further(changed, ()),))))
     _, disagreements = verify_file(path)
     assert any("geometric_safety/verified" in each for each in disagreements)
     assert any("sensitivity/slope" in each for each in disagreements)

@@ -1,0 +1,1 @@
+"""Results besides the load factor, each from its own record, and none of which changes that."""

@@ -1,0 +1,30 @@
+"""What is asked besides the load factor: each result has a record of its own, and is verified by itself.
+
+No further result changes load factor, status or mechanism: what finds one gives its record and remarks, which are put
+beside the answer (``Solution.with_further``).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from mbla.solution.further.geometric_safety.geometric_safety import GeometricSafety
+from mbla.solution.further.sensitivity.slopes import Slope
+from mbla.solution.pushover.pushover import NOT_PUSHED, Pushover
+
+
+@dataclass(frozen=True)
+class Further:
+    """Further results of one load case.
+
+    pushover         : the structure as it moves on; without rows where none was asked for, or could be done
+    sensitivity      : slopes of the associative load factor, by the parameters that the deck asks for
+    geometric_safety : of the dead load alone; None without
+    """
+
+    pushover: Pushover = NOT_PUSHED
+    sensitivity: tuple[Slope, ...] = ()
+    geometric_safety: GeometricSafety | None = field(default=None, compare=False)
+
+
+NOTHING_FURTHER = Further()

@@ -1,0 +1,1 @@
+"""Where a function of one variable is zero, in few evaluations."""

@@ -1,0 +1,1 @@
+"""Load cases that one analysis does not answer: each is a sequence of analyses, and ``sequence`` goes through it."""
