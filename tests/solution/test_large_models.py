@@ -8,9 +8,8 @@ from typing import Any
 import pytest
 
 from mbla.arrays import FloatArray
-from mbla.solution.associative import proofs
-from mbla.solution.associative.repair import repaired_mechanisms
-from mbla.solution.verification import case
+from mbla.solution.proof.kinematic_repair import repaired_mechanisms
+from mbla.solution.verification import case, proofs
 from mbla.solution.verification.verify_points import verify_points
 from tests.line import WALL, line_of, solution_of
 

@@ -24,12 +24,12 @@ from mbla.errors import Message
 from mbla.program.kinematic import ConeProgram
 from mbla.program.program import Program
 from mbla.program.static import PointMotion, StaticForm, fixed_mechanism_form
-from mbla.solution.associative.bounds import ZERO_FACTOR
 from mbla.solution.cone_solvers.choice import cone_solver
 from mbla.solution.cone_solvers.cone_solution import Log
 from mbla.solution.nonassociative.law_state import LawState, point_motion
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import WITH_VALUE, ProgramRecord, Status
+from mbla.solution.thresholds import ZERO_FACTOR
 
 TOUCHING = 1e-6
 """Velocity, over the largest contact speed, above which a point counts as moving."""

@@ -26,7 +26,6 @@ from mbla.errors import Message
 from mbla.model import Model
 from mbla.model.model import LoadCase
 from mbla.program.build import crushable_interfaces
-from mbla.solution.associative.proofs import associative_bounds
 from mbla.solution.cone_solvers.cone_solution import Log
 from mbla.solution.limits.joint_pressure import JointPressure, joint_pressure, pressed_by, unit_of_pressure
 from mbla.solution.limits.samples import Zero
@@ -34,6 +33,7 @@ from mbla.solution.limits.zeros import find_zero
 from mbla.solution.sensitivity.structures import Structure
 from mbla.solution.solution import GeometricSafety, Mechanics, Solution
 from mbla.solution.verification.case import Case
+from mbla.solution.verification.proofs import associative_bounds
 from mbla.solution.verification.statics import contact_velocities
 
 LEAST, MOST = 1.0 / 16.0, 1000.0

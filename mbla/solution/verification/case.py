@@ -17,7 +17,8 @@ from mbla.model.model import LoadCase, Model
 from mbla.program import Program, assemble
 from mbla.program.assemble import yield_limits
 from mbla.program.yield_conditions import YieldLimits, yield_violation
-from mbla.solution.associative.repair import repaired_forces, repaired_mechanisms
+from mbla.solution.proof.kinematic_repair import repaired_mechanisms
+from mbla.solution.proof.static_repair import repaired_forces
 from mbla.solution.reach import stays_within, within_reach
 from mbla.solution.solution import Mechanics
 from mbla.solution.verification.statics import (

@@ -22,7 +22,7 @@ from mbla.program import Program, assemble
 from mbla.program.assemble import yield_limits
 from mbla.program.resultants.resultants_map import resultants_map
 from mbla.program.yield_conditions import YieldLimits
-from mbla.solution.associative.repair import repaired_mechanisms
+from mbla.solution.proof.kinematic_repair import repaired_mechanisms
 from mbla.solution.solution import Checks, Mechanics, Solution
 from mbla.solution.thresholds import LIVE_POWER_DEVIATION, SOLVED_EQUILIBRIUM, SOLVED_RESIDUAL
 from mbla.solution.verification.case import PASSED_ON_ROUNDING, PROVED_RESIDUAL, Case, InterfaceTerms, Motion

@@ -12,9 +12,9 @@ import pytest
 
 from mbla.arrays import FloatArray
 from mbla.program.assemble import yield_limits
-from mbla.solution.associative.proofs import associative_bounds
 from mbla.solution.solution import Checks, Mechanics, Status
 from mbla.solution.verification.interface_laws import InterfaceLaws
+from mbla.solution.verification.proofs import associative_bounds
 from mbla.solution.verification.verify_convex import InterfaceCase, convex_lock_failures, verify_convex
 from tests.line import BLOCK, Line, line_of
 from tests.solution.by_hand import claim, cube, loaded, on_ground, state

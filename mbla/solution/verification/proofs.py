@@ -17,8 +17,8 @@ from __future__ import annotations
 import numpy as np
 
 from mbla.errors import Message
-from mbla.solution.associative.bounds import LOCKED_IN
 from mbla.solution.solution import Mechanics
+from mbla.solution.thresholds import LOCKED_IN
 from mbla.solution.verification.case import Case, Motion
 from mbla.solution.verification.statics import largest_on_interface
 

@@ -12,9 +12,9 @@ import pytest
 
 from mbla.arrays import FloatArray
 from mbla.program.program import Program
-from mbla.solution.associative.proofs import associative_bounds, certificate_failures
 from mbla.solution.solution import Mechanics
 from mbla.solution.verification.case import Case
+from mbla.solution.verification.proofs import associative_bounds, certificate_failures
 from tests.line import BLOCK, Line, line_of
 from tests.solution.by_hand import cube, loaded, on_ground, state
 
@@ -169,7 +169,7 @@ def test_large_models_are_content_with_a_mechanism_that_is_near(
     large: int, off: float, asked: int, dry: Line, mended: dict[str, Any], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Of six rows."""
-    monkeypatch.setattr("mbla.solution.associative.proofs.LARGE", large)
+    monkeypatch.setattr("mbla.solution.verification.proofs.LARGE", large)
     first = (-0.125, 0, 0, 0, 0, 0) if off < 0 else rising(0.0625 * (1.0 + off))
     mended["motions"] = [first, rising(0.0625)]
     static, kinematic = proved(dry, of_block(dry, 2.0, 4.0))
