@@ -28,6 +28,7 @@ from mbla.solution.of_interfaces import of_interfaces
 from mbla.solution.part import solve_part
 from mbla.solution.part_result import PartResult
 from mbla.solution.parts import assemble_parts, at_rest
+from mbla.solution.proof.claim import with_proof
 from mbla.solution.reach import stays_within, within_reach
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import IterationRecord, Mechanics, PathByStiffness, ProgramRecord, Solution, Status
@@ -108,6 +109,10 @@ def solve(program: CaseProgram, settings: SolverSettings, log: Log | None = None
     if program.crushing is not None or program.twisting is not None:
         interfaces = Interfaces(program.crushing, program.twisting)
     solution = solve_parts(program.reduced, settings, log, interfaces, _with_torsion(program, settings))
+    if interfaces is not NONE:
+        of_blocks = program.crushing is not None
+        solution = replace(solution, contact_model=settings.analysis.contact_model, stress_blocks=of_blocks)
+    solution = with_proof(program.bodies.model, program.bodies.contacts, program.load_case, solution)
     return solution_on_blocks(_of_interfaces(program, settings, solution), program.bodies)
 
 
@@ -131,8 +136,6 @@ def _of_interfaces(program: CaseProgram, settings: SolverSettings, solution: Sol
         solution,
         associative=associative,
         mechanics=of(solution.mechanics, solution.flow_rule) if by_path else associative,
-        contact_model=analysis.contact_model,
-        stress_blocks=program.crushing is not None,
     )
 
 

@@ -33,8 +33,7 @@ from mbla.arrays import FloatArray
 from mbla.contacts.contacts import Contacts
 from mbla.errors import Message
 from mbla.model.model import LoadCase, Model, Tilt
-from mbla.program.assemble import yield_limits
-from mbla.program.yield_conditions import YieldLimits, yield_violation
+from mbla.program.yield_conditions.limits import YieldLimits
 from mbla.solution.solution import WITH_VALUE, Checks, Solution
 from mbla.solution.thresholds import SOLVED_RESIDUAL
 from mbla.solution.tilt_circle import chord, never_left
@@ -49,6 +48,7 @@ from mbla.solution.verification.statics import (
     load_sizes,
     off_guides,
 )
+from mbla.solution.verification.strengths import excess, point_strengths
 
 ASTRAY = Message(
     "standing-not-proved", "forces under the dead load alone do not come from the displacements of the blocks"
@@ -102,7 +102,7 @@ def standing_failures(
     if unbalanced[worst] > allowed[worst]:
         share = unbalanced[worst] / scale.own[worst]
         failures.append(f"under the dead load alone {share:.2g} of the load of block {worst} is not balanced")
-    if np.any(yield_violation(forces, limits) > scale.of_lighter(contacts, allowed)):
+    if np.any(excess(forces, limits) > scale.of_lighter(contacts, allowed)):
         failures.append("forces under the dead load alone exceed the yield conditions")
     if np.any(model.fixed[:, None] & (settlement != 0)):
         failures.append("fixed blocks are displaced")
@@ -151,7 +151,7 @@ def lock_failures(model: Model, contacts: Contacts, load_case: LoadCase, lock: F
     """
     if not np.isfinite(lock).all():
         return (Message("lock-not-proved", "the forces that should show that the structure locks are not finite"),)
-    limits = yield_limits(model, contacts)
+    limits = point_strengths(model, contacts)
     if not np.any(load_case.live_load[model.free]):
         return (Message("lock-not-proved", "there is no live load on blocks that can move"),)
     scale = load_scale(model, contacts, replace(load_case, dead_load=load_case.live_load), limits)

@@ -24,7 +24,7 @@ import numpy as np
 from mbla.arrays import FloatArray, IntArray
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import LoadCase, Model
-from mbla.program.yield_conditions import YieldLimits
+from mbla.program.yield_conditions.limits import YieldLimits
 from mbla.solution.thresholds import ZERO_FACTOR
 
 
