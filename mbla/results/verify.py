@@ -43,6 +43,7 @@ from mbla.results.verification.asked import (
     held_against_deck,
 )
 from mbla.results.verification.remarks import MADE_LAST, differences_of_remarks, remarks_found_again
+from mbla.solution.derived import with_derived
 from mbla.solution.limits.geometric_safety import proved
 from mbla.solution.pushover.curve import begun_by, curve_of
 from mbla.solution.sensitivity.sensitivity import with_sensitivity
@@ -51,7 +52,6 @@ from mbla.solution.solution import Checks, Solution, Standing, Status
 from mbla.solution.thresholds import SOLVED_RESIDUAL
 from mbla.solution.tilt import angle_of_load, found_angle, found_tangent, leads_across
 from mbla.solution.tilt_circle import chord
-from mbla.solution.verification.derived import with_derived
 from mbla.solution.verification.statics import load_scale
 from mbla.solution.verification.verify import level_bound, verify
 from mbla.solution.verification.verify_points import verified_status
