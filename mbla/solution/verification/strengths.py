@@ -46,4 +46,4 @@ def excess(forces: FloatArray, limits: YieldLimits) -> FloatArray:
     """
     normal, shear = forces[:, 0], np.hypot(forces[:, 1], forces[:, 2])
     over = shear - (limits.cohesion + limits.friction * normal), -normal - limits.tension, normal - limits.compression
-    return np.maximum(np.max(over, axis=0), 0.0)
+    return np.asarray(np.maximum(np.max(over, axis=0), 0.0))

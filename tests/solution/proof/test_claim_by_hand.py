@@ -138,7 +138,8 @@ def test_the_first_motion_that_proves_a_fall_is_claimed(interfaces: bool, dry: L
     def fall(solution: Solution) -> list[list[float]]:
         certificate = claimed(line, solution, interfaces).certificate
         assert certificate is not None
-        return certificate.tolist()
+        rows: list[list[float]] = certificate.tolist()
+        return rows
 
     mended["motions"] = [(-2, 0, 1, 0, 0, 0), (2, 0, 1, 0, 0, 0), (4, 0, 3, 0, 0, 0)]
     assert fall(at_rest) == [[1, 0, 0.5, 0, 0, 0]]

@@ -242,9 +242,15 @@ TRIANGLE = ((0.0, 0.0), (1.0, 0.0), (0.25, 0.75))
 
 
 def triangle(friction: float = 0.5, cohesion: float = 0.0) -> InterfaceLaws:
-    strengths = (np.array([value]) for value in (friction, cohesion, 0.0, np.inf))
-    torsional = np.array([friction > 0.0 or cohesion > 0.0])
-    return InterfaceLaws(shapes_of(*TRIANGLE), *strengths, torsional, np.array([False]))
+    return InterfaceLaws(
+        shapes=shapes_of(*TRIANGLE),
+        friction=np.array([friction]),
+        cohesion=np.array([cohesion]),
+        tension=np.zeros(1),
+        strength=np.array([np.inf]),
+        torsional=np.array([friction > 0.0 or cohesion > 0.0]),
+        crushable=np.array([False]),
+    )
 
 
 def pressed_at(place: FloatArray, normal: float = 2.0) -> FloatArray:
