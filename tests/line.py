@@ -18,6 +18,7 @@ from mbla.results.provenance import with_loads_found
 from mbla.results.results import CaseResult
 from mbla.results.sta import StatusFile
 from mbla.run import solve_case
+from mbla.solution.proof.claim import with_proof
 from mbla.solution.settings import solver_settings
 from mbla.solution.solution import Checks, Solution, Status
 from mbla.solution.solve import solve_parts
@@ -101,7 +102,8 @@ def solution_of(line: Line) -> Solution:
     reduced = reduce_program(
         line.model, line.contacts, line.program, allowed_reductions(analysis), associative=associative
     )
-    return solve_parts(reduced, solver_settings(analysis))
+    solution = solve_parts(reduced, solver_settings(analysis))
+    return with_proof(line.model, line.contacts, line.load_case, solution)
 
 
 def verified(line: Line) -> tuple[Solution, Checks, Status]:

@@ -37,6 +37,28 @@ DOORS = {
     "dask": "sweeps/engine/cluster.py",
     "distributed": "sweeps/engine/cluster.py",
 }
+SECOND_DERIVATION = "solution/verification/"
+GIVEN_TO_IT = {
+    "program/yield_conditions/limits.py": "strengths as data",
+    "program/resultants/shapes.py": "outlines of interfaces",
+    "program/resultants/friction_curve.py": "radius and shape of the friction curve of an outline",
+    "program/reductions/steps.py": "what reductions did, as data",
+    "solution/solution.py": "the claim",
+    "solution/thresholds.py": "what counts as solved",
+    "solution/lifted.py": "the claim on rigid bodies",
+    "solution/contact_modes.py": "modes, of which none is judged",
+    "solution/pushover/pushed.py": "rows of a curve and why it ends",
+    "solution/pushover/record.py": "rows of a pushover",
+    "solution/further/further.py": "the claim of further results",
+    "solution/further/geometric_safety/geometric_safety.py": "the claim of a factor of safety",
+    "solution/further/geometric_safety/pressed.py": "loads of pressed joints",
+    "solution/further/sensitivity/slopes.py": "the claim of slopes",
+    "solution/further/sensitivity/structures.py": "a structure with another parameter",
+    "solution/pushover/pushover.py": "the claim of a pushover",
+    "solution/sequence/tilt_circle.py": "loads of a tilting table",
+}
+"""files of program and solution that the verification sees, by itself or through others, and what they are: no matrix,
+no law and no proof of the solver"""
 FILES = sorted(PACKAGE.rglob("*.py"))
 
 
@@ -71,6 +93,23 @@ def test_stages_import_from_the_left_and_each_library_has_one_door() -> None:
             if at_run_time and DOORS.get(package, place) != place:
                 wrong.append(f"{place} imports {name}, whose door is {DOORS[package]}")
     assert wrong == []
+
+
+def test_what_is_claimed_is_judged_by_a_second_derivation() -> None:
+    """What the verification imports, and what that imports, is its own, given to it, or of the stages before."""
+    paths = {str(path.relative_to(PACKAGE)): path for path in FILES}
+    seen, rest = set[str](), [place for place in paths if place.startswith(SECOND_DERIVATION)]
+    assert rest
+    while rest:
+        place = rest.pop()
+        if place in seen:
+            continue
+        seen.add(place)
+        for name in (name for name, at_run_time in imports_of(paths[place]).items() if at_run_time):
+            file = name.removeprefix("mbla.").replace(".", "/")
+            rest += [found for found in (f"{file}.py", f"{file}/__init__.py") if found in paths]
+    later = {place for place in seen if place.startswith(("program/", "solution/", "results/", "sweeps/"))}
+    assert {place for place in later if not place.startswith(SECOND_DERIVATION)} == set(GIVEN_TO_IT)
 
 
 def test_superlu_has_one_door() -> None:

@@ -43,6 +43,7 @@ from mbla.results.verification.asked import (
     held_against_deck,
 )
 from mbla.results.verification.remarks import MADE_LAST, differences_of_remarks, remarks_found_again
+from mbla.solution.derived import with_derived
 from mbla.solution.further.further import Further
 from mbla.solution.further.sensitivity.sensitivity import sensitivity_of
 from mbla.solution.further.sensitivity.slopes import Slope
@@ -51,7 +52,6 @@ from mbla.solution.sequence.tilt_circle import chord
 from mbla.solution.settings import settings_for, solver_settings
 from mbla.solution.solution import Solution, Standing, Status
 from mbla.solution.thresholds import SOLVED_RESIDUAL
-from mbla.solution.verification.derived import with_derived
 from mbla.solution.verification.geometric_safety import proved
 from mbla.solution.verification.statics import load_scale
 from mbla.solution.verification.tilting_table import angle_of_load, found_angle, found_tangent, leads_across

@@ -10,12 +10,16 @@ from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import Model
 from mbla.program.assemble import yield_limits
-from mbla.program.resultants.friction_limit import torsion_reserve
 from mbla.program.resultants.resultants_map import resultants_map
-from mbla.program.resultants.torsion import torsion_limits
-from mbla.solution.mechanics import AT_REST, contact_modes
+from mbla.solution.contact_modes import AT_REST, contact_modes
 from mbla.solution.solution import ContactMode, Mechanics
-from mbla.solution.verification.interface_laws import InterfaceLaws, crushing_excess, interface_laws
+from mbla.solution.verification.interface_laws import (
+    InterfaceLaws,
+    crushing_excess,
+    interface_laws,
+    shear_strength,
+    torsion_excess,
+)
 
 
 def of_interfaces(
@@ -43,8 +47,9 @@ def of_interfaces(
 
 def _reserve_of_torsion(laws: InterfaceLaws, resultants: FloatArray) -> FloatArray:
     """As for points, an interface slips where its speed, as a share of the largest, exceeds this, (n_interfaces,)."""
-    acts = laws.torsional.astype(np.float64)
-    return torsion_reserve(torsion_limits(laws.shapes, acts * laws.friction, acts * laws.cohesion), resultants)
+    largest = float(shear_strength(laws, resultants)[0][laws.torsional].max(initial=0.0))
+    left = np.maximum(-torsion_excess(laws, resultants), 0.0) / max(largest, 1e-300)
+    return np.where(laws.torsional, left, np.inf)
 
 
 def _crushes(

@@ -9,7 +9,6 @@ import numpy as np
 from mbla.arrays import FloatArray
 from mbla.errors import Message
 from mbla.program.program import Program
-from mbla.solution.associative.certificate import steepest_fall
 from mbla.solution.associative.heavy_loads import solved_under_heavy_loads
 from mbla.solution.associative.solve_associative import AssociativeResult, solve_associative
 from mbla.solution.cone_solvers.cone_solution import Log
@@ -20,6 +19,7 @@ from mbla.solution.nonassociative.locking import locks_at_dilatancy
 from mbla.solution.nonassociative.schemes import slope_of, solve_nonassociative
 from mbla.solution.nonassociative.torsion import solve_with_torsion
 from mbla.solution.part_result import PartResult
+from mbla.solution.proof.certificate import steepest_fall
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import WITH_VALUE, ProgramRecord, Status
 from mbla.solution.standing.standing import assess_dead_load, standing_without_equilibrium

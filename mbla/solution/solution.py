@@ -9,8 +9,8 @@ from enum import IntEnum, StrEnum
 
 from mbla.arrays import FloatArray, IntArray
 from mbla.errors import Message
-from mbla.program.reductions import ModelSize as ModelSize
-from mbla.program.reductions import ReductionStep as ReductionStep
+from mbla.program.reductions.steps import ModelSize as ModelSize
+from mbla.program.reductions.steps import ReductionStep as ReductionStep
 from mbla.solution.further.further import NOTHING_FURTHER, Further
 
 

@@ -29,6 +29,7 @@ from mbla.solution.lifted import solution_on_blocks
 from mbla.solution.of_interfaces import of_interfaces
 from mbla.solution.part import associative_part, with_flow_rule, with_least, with_standing, with_torsion
 from mbla.solution.part_result import PartResult
+from mbla.solution.proof.claim import with_proof
 from mbla.solution.reach import stays_within, within_reach
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import IterationRecord, Mechanics, Solution, Status
@@ -47,6 +48,10 @@ def solve(program: CaseProgram, settings: SolverSettings, log: Log | None = None
     if program.crushing is not None or program.twisting is not None:
         interfaces = Interfaces(program.crushing, program.twisting)
     solution = solve_parts(program.reduced, settings, log, interfaces, _with_torsion(program, settings))
+    if interfaces is not NONE:
+        crush = program.crushing is not None
+        solution = replace(solution, contact_model=settings.analysis.contact_model, stress_blocks=crush)
+    solution = with_proof(program.bodies.model, program.bodies.contacts, program.load_case, solution)
     return solution_on_blocks(_of_interfaces(program, settings, solution), program.bodies)
 
 
@@ -70,8 +75,6 @@ def _of_interfaces(program: CaseProgram, settings: SolverSettings, solution: Sol
         solution,
         associative=associative,
         mechanics=of(solution.mechanics, solution.flow_rule) if by_path else associative,
-        contact_model=analysis.contact_model,
-        stress_blocks=program.crushing is not None,
     )
 
 

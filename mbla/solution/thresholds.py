@@ -31,6 +31,13 @@ GAP_TOLERANCE = 1e-5
 BOUNDS_ROUNDING = 1e-9
 """Bounds that cross by no more than this, relative to the load factor, count as equal."""
 
+LOCKED_IN = 1e4
+"""Normal force, over the total dead load, that would have to be locked in to hold a structure that a motion with
+rounding says to fall."""
+
+ZERO_FACTOR = 1e-3
+"""Load factors below this share of dead over live load are taken for that share in relative measures."""
+
 STILL = 1e-12
 """Velocity over the largest of the motion that is rounding: where no contact point moves more, no joint does."""
 

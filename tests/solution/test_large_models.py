@@ -8,9 +8,8 @@ from typing import Any
 import pytest
 
 from mbla.arrays import FloatArray
-from mbla.solution.associative import proofs
-from mbla.solution.associative.repair import repaired_mechanisms
-from mbla.solution.verification import case
+from mbla.solution.proof import claim
+from mbla.solution.proof.kinematic_repair import repaired_mechanisms
 from mbla.solution.verification.verify_points import verify_points
 from tests.line import WALL, line_of, solution_of
 
@@ -27,20 +26,17 @@ def test_a_mechanism_that_proves_its_factor_is_not_repaired_again_on_large_model
             yield motion
 
     def bounds(large: int, near: float) -> tuple[int, float, float]:
-        monkeypatch.setattr(proofs, "LARGE", large)
-        monkeypatch.setattr(proofs, "LARGE_GAP", near)
+        monkeypatch.setattr(claim, "LARGE", large)
+        monkeypatch.setattr(claim, "LARGE_GAP", near)
         tried.clear()
-        checks = verified_checks(line, solution)
+        claimed = claim.with_proof(line.model, line.contacts, line.load_case, solution)
+        checks = verify_points(line.model, line.contacts, line.load_case, claimed)
         return len(tried), checks.static_bound, checks.kinematic_bound
 
-    monkeypatch.setattr(case, "repaired_mechanisms", counted)
+    monkeypatch.setattr(claim, "repaired_mechanisms", counted)
     every, static, kinematic = bounds(10**9, 1e-5)
     assert every > 1
     once = bounds(0, 1e-5)
     assert once[0] == 1
     assert once[1:] == pytest.approx((static, kinematic), rel=1e-5)
     assert bounds(0, 0.0)[0] == every  # none is so near
-
-
-def verified_checks(line: Any, solution: Any) -> Any:
-    return verify_points(line.model, line.contacts, line.load_case, solution)

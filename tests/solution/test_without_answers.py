@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 from mbla.solution import deciding_part
-from mbla.solution.associative import repair
 from mbla.solution.associative.condition_cones import ConditionCones
-from mbla.solution.associative.repair import repaired_forces
 from mbla.solution.associative.solve_associative import solve_associative
 from mbla.solution.nonassociative import livesley
 from mbla.solution.nonassociative.livesley import solve_livesley
+from mbla.solution.proof import static_repair
+from mbla.solution.proof.static_repair import repaired_forces
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Status
 from mbla.solution.verification.verify import verify
@@ -45,10 +45,10 @@ def test_forces_whose_correction_is_no_number_are_not_repaired(monkeypatch: pyte
     assert state is not None
     assert repaired_forces(program, state.forces, state.load_factor) is not None
     nothing = np.full(len(program.live_load) + 1, np.nan)
-    monkeypatch.setattr(repair, "bordered_solver", lambda *arguments: lambda rhs: nothing)
+    monkeypatch.setattr(static_repair, "bordered_solver", lambda *arguments: lambda rhs: nothing)
     further = ConditionCones.of(program)
-    forces = repair._Forces(state.forces, np.zeros(0), state.load_factor)
-    assert repair._static_correction(program, further, forces, repair.NORMAL) is None
+    forces = static_repair._Forces(state.forces, np.zeros(0), state.load_factor)
+    assert static_repair._static_correction(program, further, forces, static_repair.NORMAL) is None
     rough = state.forces + 1e-3
     assert repaired_forces(program, rough, state.load_factor) is None
 

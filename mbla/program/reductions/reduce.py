@@ -17,27 +17,7 @@ from mbla.program.reductions.planar import is_planar, planar_program
 from mbla.program.reductions.points import program_by_shares, without_inner_points
 from mbla.program.reductions.restrict import guided_program, tidy
 from mbla.program.reductions.scene import Scene, scene_of, split_into_parts
-from mbla.program.reductions.steps import ReductionStep, ReductionSwitches, size_of
-
-
-@dataclass(frozen=True)
-class ModelSize:
-    """What reached the solver.
-
-    dimension     : 2 where the structure was solved as planar, else 3
-    mirror_planes : planes of symmetry that were used besides, largest number of any part
-    parts         : parts that cannot interact, solved apart
-    free_blocks   : blocks with unknowns
-    contact_points: points with unknowns
-    dropped_points: points of the model that cannot matter, or follow from others by symmetry
-    """
-
-    dimension: int
-    mirror_planes: int
-    parts: int
-    free_blocks: int
-    contact_points: int
-    dropped_points: int
+from mbla.program.reductions.steps import ModelSize, ReductionStep, ReductionSwitches, size_of
 
 
 @dataclass(frozen=True)

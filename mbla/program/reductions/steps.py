@@ -14,12 +14,15 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from enum import StrEnum
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from mbla.assembly.rigid_bodies import RigidBodies
 from mbla.deck.sections.analysis import AnalysisSection
-from mbla.program.program import Program
+
+if TYPE_CHECKING:
+    from mbla.program.program import Program
 
 
 class StepState(StrEnum):
@@ -29,6 +32,26 @@ class StepState(StrEnum):
     NONE = "nothing found"
     OFF = "switched off"
     BARRED = "would change the answer"
+
+
+@dataclass(frozen=True)
+class ModelSize:
+    """What reached the solver.
+
+    dimension     : 2 where the structure was solved as planar, else 3
+    mirror_planes : planes of symmetry that were used besides, largest number of any part
+    parts         : parts that cannot interact, solved apart
+    free_blocks   : blocks with unknowns
+    contact_points: points with unknowns
+    dropped_points: points of the model that cannot matter, or follow from others by symmetry
+    """
+
+    dimension: int
+    mirror_planes: int
+    parts: int
+    free_blocks: int
+    contact_points: int
+    dropped_points: int
 
 
 @dataclass(frozen=True)

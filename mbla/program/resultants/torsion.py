@@ -44,6 +44,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray, starts
+from mbla.model.solids.ragged import next_item
 from mbla.program.resultants.conditions import M1, M2, MN, T1, T2, ConditionRows, Entries, N
 from mbla.program.resultants.friction_curve import rectangle_curve
 from mbla.program.resultants.shapes import InterfaceShapes
@@ -147,3 +148,11 @@ def _cones(limits: TorsionLimits, column: IntArray) -> tuple[Entries, IntArray]:
         cones.add(curve + 3, column + sense, -2.0 / (2.0 - theta))
     sizes = np.concatenate([np.ones(2 * n + n_corners), np.full(n, 4), np.full(n, 3)]).astype(np.int64)
     return cones, sizes
+
+
+def reducing_slopes(limits: TorsionLimits) -> FloatArray:
+    """S of the edge that leaves each corner q: s·q = 1 at both ends."""
+    q = limits.corners
+    after = q[next_item(limits.start)]
+    det = q[:, 0] * after[:, 1] - q[:, 1] * after[:, 0]
+    return np.asarray(np.column_stack([after[:, 1] - q[:, 1], q[:, 0] - after[:, 0]]) / det[:, None])

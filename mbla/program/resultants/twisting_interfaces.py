@@ -22,10 +22,9 @@ from mbla.arrays import FloatArray, IntArray
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import Model
 from mbla.program.program import Program
-from mbla.program.resultants.friction_limit import reducing_slopes
 from mbla.program.resultants.interface_motions import tidied
 from mbla.program.resultants.shapes import interface_shapes, local_points
-from mbla.program.resultants.torsion import TorsionLimits, torsion_limits
+from mbla.program.resultants.torsion import TorsionLimits, reducing_slopes, torsion_limits
 
 
 @dataclass(frozen=True)

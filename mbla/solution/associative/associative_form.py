@@ -10,8 +10,8 @@ import scipy.sparse as sp
 from mbla.arrays import FloatArray
 from mbla.program.kinematic import ConeProgram, KinematicForm, kinematic_form
 from mbla.program.program import Program
-from mbla.solution.associative.repair import carried_loads
 from mbla.solution.cone_solvers.cone_solution import ConeSolution
+from mbla.solution.proof.static_repair import carried_loads
 
 LIGHT = 1e-2
 """Load of a block, in mean loads, below which its equilibrium has units of its own."""

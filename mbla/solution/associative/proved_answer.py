@@ -17,10 +17,10 @@ import numpy as np
 from mbla.arrays import FloatArray
 from mbla.program.program import Program
 from mbla.solution.associative.associative_form import AssociativeForm, associative_form, in_own_units
-from mbla.solution.associative.bounds import CertifiedGap, certified_gap, factor_size, falling_motion
 from mbla.solution.cone_solvers.choice import cone_solver, other_method
 from mbla.solution.cone_solvers.cone_solution import ConeSolution, ConeSolver, Log
 from mbla.solution.nonassociative.law_state import LawState
+from mbla.solution.proof.bounds import CertifiedGap, certified_gap, factor_size, falling_motion
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import WITH_VALUE, ProgramRecord, Status
 from mbla.solution.thresholds import GAP_TOLERANCE

@@ -22,7 +22,6 @@ from mbla.process.sharing import shared
 from mbla.program.program import Program
 from mbla.program.static import gravity_form
 from mbla.solution.associative.associative_form import AssociativeForm, associative_form
-from mbla.solution.associative.bounds import falling_motion
 from mbla.solution.associative.proved_answer import (
     STANDS_MARGIN,
     AssociativeRun,
@@ -32,10 +31,11 @@ from mbla.solution.associative.proved_answer import (
     solve_until_proved,
     solved_once,
 )
-from mbla.solution.associative.repair import repaired_forces
 from mbla.solution.cone_solvers.choice import cone_solver
 from mbla.solution.cone_solvers.cone_solution import ConeSolution, Log
 from mbla.solution.nonassociative.law_state import LawState, law_state
+from mbla.solution.proof.bounds import falling_motion
+from mbla.solution.proof.static_repair import repaired_forces
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import WITH_VALUE, ProgramRecord, Status
 from mbla.solution.standing.standing import StressFree, stress_free_state

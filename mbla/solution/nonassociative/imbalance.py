@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from mbla.program.program import Program
-from mbla.solution.associative.repair import carried_loads
 from mbla.solution.nonassociative.law_state import LawState
+from mbla.solution.proof.static_repair import carried_loads
 
 NOTHING = 1e-6
 """What a block without weight carries, over the mean load, that is rounding."""

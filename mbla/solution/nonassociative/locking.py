@@ -26,8 +26,8 @@ from mbla.arrays import FloatArray
 from mbla.program.program import Program
 from mbla.program.reductions.restrict import guided_program
 from mbla.program.yield_conditions.limits import YieldLimits
-from mbla.solution.associative.repair import repaired_forces
 from mbla.solution.cone_solvers.cone_solution import ConeSolution, Log
+from mbla.solution.proof.static_repair import repaired_forces
 from mbla.solution.settings import SolverSettings
 from mbla.solution.standing.standing import least_forces
 

@@ -5,7 +5,6 @@ Conditions on interfaces change some of it (:mod:`mbla.solution.verification.ver
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -14,11 +13,7 @@ import numpy as np
 from mbla.arrays import FloatArray
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import LoadCase, Model
-from mbla.program import Program, assemble
-from mbla.program.assemble import yield_limits
-from mbla.program.yield_conditions import YieldLimits, yield_violation
-from mbla.solution.associative.repair import repaired_forces, repaired_mechanisms
-from mbla.solution.reach import stays_within, within_reach
+from mbla.program.yield_conditions.limits import YieldLimits
 from mbla.solution.solution import Mechanics
 from mbla.solution.verification.statics import (
     LoadScale,
@@ -29,6 +24,7 @@ from mbla.solution.verification.statics import (
     load_scale,
     power,
 )
+from mbla.solution.verification.strengths import excess, point_strengths
 
 Motion = tuple[FloatArray, FloatArray | None]
 """Velocities of the blocks, (n_blocks, 6), and motions of the interfaces, (n_interfaces, 2, 6), where they have any."""
@@ -66,17 +62,12 @@ class Case:
     @cached_property
     def limits(self) -> YieldLimits:
         """Strengths of the contact points."""
-        return yield_limits(self.model, self.contacts)
+        return point_strengths(self.model, self.contacts)
 
     @cached_property
     def scale(self) -> LoadScale:
         """Sizes of the loads."""
         return load_scale(self.model, self.contacts, self.load_case, self.limits)
-
-    @cached_property
-    def program(self) -> Program:
-        """The program by which forces and motions are repaired; no verdict comes from it."""
-        return assemble(self.model, self.contacts, self.load_case)
 
     def velocities(self, mechanism: FloatArray) -> FloatArray:
         """Velocities at the contact points, (n_points, 3)."""
@@ -104,6 +95,11 @@ class Case:
     def motion_of(self, mechanics: Mechanics) -> Motion:
         """How blocks and interfaces move."""
         return mechanics.mechanism, None
+
+    def admissible(self, motion: Motion) -> Motion:
+        """The nearest motion in which fixed blocks stay where they are, and guided ones on their ways."""
+        still = np.where(self.model.fixed[:, None], 0.0, motion[0])
+        return allowed_motion(self.model, still, self.scale.arms), motion[1]
 
     def balance(self, live_power: float, dead_power: float, frictional: float, mechanism: FloatArray) -> float:
         """What shares of the power are relative to, from the powers of loads and of friction in a mechanism."""
@@ -134,27 +130,13 @@ class Case:
         """What residuals of each block are relative to, (n_blocks,)."""
         return self.scale.block_scale(self.contacts, forces)
 
-    def repaired_forces(self, mechanics: Mechanics) -> tuple[FloatArray, float] | None:
-        """Forces near the given ones, (n_points, 3) N, and the load factor that they may prove; None without."""
-        scaling = self.program.scaling
-        forces = scaling.scaled_forces(mechanics.contact_forces)
-        easier = within_reach(self.program)
-        program = easier if easier is not None and stays_within(easier, forces) else self.program
-        found = repaired_forces(program, forces, mechanics.load_factor / scaling.live)
-        return None if found is None else (scaling.forces(found[0]), scaling.load_factor(found[1]))
-
-    def repaired_motions(self, motion: Motion) -> Iterator[Motion]:
-        """The motion and versions of it moved towards compatibility, each found when it is asked for."""
-        for u in repaired_mechanisms(self.program, self.program.velocities(motion[0])):
-            yield allowed_motion(self.model, self.program.mechanism(u), self.scale.arms), None
-
     def forces_prove(self, forces: FloatArray, factor: float) -> bool:
         """Whether forces, (n_points, 3) N, balance the loads within all conditions up to rounding."""
         block_scale = self.scale.rounded_scale(self.contacts, forces, factor, PASSED_ON_ROUNDING)
         allowed = PROVED_RESIDUAL * self.scale.of_lighter(self.contacts, block_scale)
         return bool(
             np.all(self.unbalanced_loads(forces, factor) <= PROVED_RESIDUAL * block_scale)
-            and np.all(yield_violation(forces, self.limits) <= allowed)
+            and np.all(excess(forces, self.limits) <= allowed)
         )
 
     def charge(self, forces: FloatArray, factor: float, motion: Motion) -> float:
@@ -166,8 +148,8 @@ class Case:
         left = self.unbalanced_wrenches(forces, factor)
         unbalanced = float(np.abs(np.einsum("bi,bi->b", left, mechanism)).sum())
         speed = np.sqrt((self.velocities(mechanism) ** 2).sum(axis=1))
-        excess = float((yield_violation(forces, self.limits) * speed).sum())
-        return (unbalanced + excess) / self.powers(mechanism)[1]
+        beyond = float((excess(forces, self.limits) * speed).sum())
+        return (unbalanced + beyond) / self.powers(mechanism)[1]
 
     def dissipation(self, motion: Motion, most: float = np.inf) -> tuple[float, float]:
         """Power that joints dissipate at most by associative flow, and Σ δ over the points that cannot crush.

@@ -17,9 +17,9 @@ from __future__ import annotations
 import numpy as np
 
 from mbla.arrays import FloatArray
-from mbla.program.stiffness_shares import shares_in_units, stiffness_areas
 from mbla.solution.solution import Mechanics
 from mbla.solution.verification.case import Case
+from mbla.solution.verification.stiffness import relative_stiffness
 
 RESTS, ALIKE = 1e-9, 1e-6
 """Velocity over the largest up to which a joint counts as at rest, and difference of stiffness that is rounding."""
@@ -49,12 +49,6 @@ def elastic_residual(case: Case, mechanics: Mechanics, dilatancy: FloatArray) ->
     return float(off.max(initial=0.0)) / largest if largest > 0.0 else float("nan")
 
 
-def _by_shares(case: Case) -> FloatArray:
-    """Normal stiffness of the points by their shares, (n_points,), in the deck's units but for one factor."""
-    units = case.program.scaling.units
-    return shares_in_units(stiffness_areas(case.contacts), units) * units**2
-
-
 def _off(
     case: Case, forces: FloatArray, v: FloatArray, remembered: FloatArray, stiffness: FloatArray, dilatancy: FloatArray
 ) -> FloatArray:
@@ -80,7 +74,7 @@ def _is_in_proportion(case: Case, stiffness: FloatArray, v: FloatArray) -> bool:
     joints = moves & ~case.contacts.tie_points
     if not joints.any():
         return True
-    by_share = stiffness[joints, 0] / _by_shares(case)[joints]
+    by_share = stiffness[joints, 0] / relative_stiffness(case.model, case.contacts, case.load_case)[joints]
     ratio = stiffness[joints, 1] / stiffness[joints, 0]
     same = float(np.ptp(by_share)) <= ALIKE * float(by_share.max())
     return same and float(np.ptp(ratio)) <= ALIKE * float(ratio.max())

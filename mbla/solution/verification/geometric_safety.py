@@ -7,12 +7,12 @@ import numpy as np
 from mbla.assembly.assembly import Assembly
 from mbla.assembly.lift import motions_of_bodies
 from mbla.model.model import LoadCase
-from mbla.solution.associative.proofs import associative_bounds
 from mbla.solution.further.geometric_safety.geometric_safety import MOST, TOLERANCE, GeometricSafety, shrunk
-from mbla.solution.further.geometric_safety.joint_pressure import pressed_by, unit_of_pressure
+from mbla.solution.further.geometric_safety.pressed import pressed_by, unit_of_pressure
 from mbla.solution.further.sensitivity.structures import Structure
 from mbla.solution.solution import Mechanics
 from mbla.solution.verification.case import Case
+from mbla.solution.verification.proofs import associative_bounds
 
 APART = 1e-4
 """of the factor, relative: two further apart prove none; 2e-6 is usual, accuracy draft leaves up to 5e-5"""

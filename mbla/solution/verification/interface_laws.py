@@ -33,7 +33,6 @@ import numpy as np
 from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import Model
-from mbla.program.resultants.friction_curve import rectangle_curve
 from mbla.program.resultants.shapes import (
     Fan,
     InterfaceShapes,
@@ -126,9 +125,18 @@ def _reduced_normal(laws: InterfaceLaws, resultants: FloatArray) -> FloatArray:
 
 
 def _rectangle_terms(shapes: InterfaceShapes) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """ρ, gradient of ρ and sides, of a unit square where the interface is no rectangle."""
+    """ρ (n,), gradient of ρ with respect to both sides (n, 2), and sides, of a unit square where it is no rectangle.
+
+    The mean distance from the middle of a rectangle a × b with the diagonal d, and its derivative::
+
+        12 ρ = 2 d + a²/b asinh(b/a) + b²/a asinh(a/b)
+        12 ∂ρ/∂a = d/a + 2 a/b asinh(b/a) − b²/a² asinh(a/b)
+    """
     sides = np.where(shapes.rectangles[:, None], shapes.sides, 1.0)
-    rho, _, gradient = rectangle_curve(sides)
+    other, diagonal = sides[:, ::-1], np.hypot(*sides.T)[:, None]
+    along, across = sides / other * np.arcsinh(other / sides), other / sides * np.arcsinh(sides / other)
+    rho = (2.0 * diagonal[:, 0] + sides[:, 0] * along[:, 0] + other[:, 0] * across[:, 0]) / 12.0
+    gradient = (diagonal / sides + 2.0 * along - other / sides * across) / 12.0
     return rho, gradient, sides
 
 

@@ -15,8 +15,7 @@ from mbla.arrays import FloatArray
 from mbla.contacts.contacts import Contacts
 from mbla.errors import Message
 from mbla.model.model import LoadCase, Model
-from mbla.program.assemble import yield_limits
-from mbla.program.yield_conditions import YieldLimits
+from mbla.program.yield_conditions.limits import YieldLimits
 from mbla.solution.verification.standing import FORCE_ROUNDING
 from mbla.solution.verification.statics import (
     contact_resultants,
@@ -25,6 +24,7 @@ from mbla.solution.verification.statics import (
     load_scale,
     load_sizes,
 )
+from mbla.solution.verification.strengths import point_strengths
 
 LASTING = 1e-6
 """Unbalanced share of a block's live load, and excess over the yield conditions, with which forces still prove it: they
@@ -42,7 +42,7 @@ def lock_failures(model: Model, contacts: Contacts, load_case: LoadCase, lock: F
     """
     if not np.isfinite(lock).all():
         return (Message("lock-not-proved", "the forces that should show that the structure locks are not finite"),)
-    limits = yield_limits(model, contacts)
+    limits = point_strengths(model, contacts)
     if not np.any(load_case.live_load[model.free]):
         return (Message("lock-not-proved", "there is no live load on blocks that can move"),)
     scale = load_scale(model, contacts, replace(load_case, dead_load=load_case.live_load), limits)

@@ -19,10 +19,11 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.contacts.contacts import Contacts
-from mbla.program.yield_conditions import YieldLimits, yield_violation
+from mbla.program.yield_conditions.limits import YieldLimits
 from mbla.solution.solution import Mechanics
 from mbla.solution.verification.case import Case
 from mbla.solution.verification.statics import largest_on_interface, off_guides
+from mbla.solution.verification.strengths import excess
 
 AT_REST = 1e-9
 """contact speed over the speed of blocks up to which a joint does not move: the accuracy of the cone programs"""
@@ -85,11 +86,11 @@ def residuals_of(case: Case, mechanics: Mechanics, dilatancy: FloatArray) -> Res
     lost = dead_power + factor * live_power - flow.dissipated - interfaces.dissipated
     block_scale = case.block_scale(x, factor)
     point_scale = scale.of_lighter(contacts, block_scale)
-    excess = float((yield_violation(x, limits) / point_scale).max(initial=0.0))
+    of_points = float((excess(x, limits) / point_scale).max(initial=0.0))
     tension = np.maximum(-x[:, 0] - limits.tension, 0.0)
     return Residuals(
         equilibrium=float((case.unbalanced_loads(x, factor)[free] / block_scale[free]).max(initial=0.0)),
-        yielding=max(excess, case.interface_excess(x, point_scale)),
+        yielding=max(of_points, case.interface_excess(x, point_scale)),
         tension=float((tension / point_scale).max(initial=0.0)),
         penetration=max(penetration_of(closing, speed, u, scale.arms), off_guides(case.model, u, scale.arms)),
         complementarity=share_of(flow.normal + flow.slip + interfaces.unexplained, balance),

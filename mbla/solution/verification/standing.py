@@ -18,7 +18,7 @@ from mbla.arrays import FloatArray
 from mbla.contacts.contacts import Contacts
 from mbla.errors import Message
 from mbla.model.model import LoadCase, Model
-from mbla.program.yield_conditions import YieldLimits, yield_violation
+from mbla.program.yield_conditions.limits import YieldLimits
 from mbla.solution.verification.statics import (
     contact_resultants,
     contact_velocities,
@@ -27,6 +27,7 @@ from mbla.solution.verification.statics import (
     load_sizes,
     off_guides,
 )
+from mbla.solution.verification.strengths import excess
 
 ASTRAY = Message(
     "standing-not-proved", "forces under the dead load alone do not come from the displacements of the blocks"
@@ -84,7 +85,7 @@ def standing_failures(
     if unbalanced[worst] > allowed[worst]:
         share = unbalanced[worst] / scale.own[worst]
         failures.append(f"under the dead load alone {share:.2g} of the load of block {worst} is not balanced")
-    if np.any(yield_violation(forces, limits) > scale.of_lighter(contacts, allowed)):
+    if np.any(excess(forces, limits) > scale.of_lighter(contacts, allowed)):
         failures.append("forces under the dead load alone exceed the yield conditions")
     if np.any(model.fixed[:, None] & (settlement != 0)):
         failures.append("fixed blocks are displaced")

@@ -24,7 +24,8 @@ import numpy as np
 from mbla.arrays import FloatArray, IntArray
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import LoadCase, Model
-from mbla.program.yield_conditions import YieldLimits
+from mbla.program.yield_conditions.limits import YieldLimits
+from mbla.solution.thresholds import ZERO_FACTOR
 
 
 def bodies_of_points(contacts: Contacts) -> IntArray:
@@ -141,10 +142,6 @@ def _projected(model: Model, values: FloatArray, sizes: FloatArray) -> FloatArra
     result = values.copy()
     result[blocks] = np.einsum("mij,mj->mi", ways, shares[bodies])
     return result
-
-
-ZERO_FACTOR = 1e-3
-"""Load factors below this share of dead over live load are taken for that share in relative measures."""
 
 
 @dataclass(frozen=True)

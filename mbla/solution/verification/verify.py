@@ -17,7 +17,6 @@ from mbla.contacts.contacts import Contacts
 from mbla.errors import Message
 from mbla.model.model import LoadCase, Model
 from mbla.process.stopwatch import stage
-from mbla.program.assemble import yield_limits
 from mbla.solution.lifted import model_of, rule_of, solution_on_bodies
 from mbla.solution.solution import Checks, Solution, Standing, Status
 from mbla.solution.verification.case import Case
@@ -26,6 +25,7 @@ from mbla.solution.verification.least import least_check
 from mbla.solution.verification.lock import lock_failures
 from mbla.solution.verification.residuals import residuals_of
 from mbla.solution.verification.standing import standing_failures
+from mbla.solution.verification.strengths import point_strengths
 from mbla.solution.verification.tilting_table import never_failures, tilt_failures
 from mbla.solution.verification.verify_convex import (
     InterfaceCase,
@@ -164,7 +164,7 @@ def _standing_failures(
         return (NOTHING_ACTS,)
     if standing.forces is None or standing.settlement is None:
         return (NOT_SHOWN,) if stands and loaded else ()
-    limits = point_limits(model, contacts) if solution.conditions_on_interfaces else yield_limits(model, contacts)
+    limits = point_limits(model, contacts) if solution.conditions_on_interfaces else point_strengths(model, contacts)
     failures = standing_failures(model, contacts, load_case, standing.forces, standing.settlement, limits)
     return failures if stands or failures else (SHOWN,)
 

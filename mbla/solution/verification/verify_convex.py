@@ -7,22 +7,16 @@ come from :mod:`mbla.solution.verification.interface_laws`.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
-import scipy.sparse as sp
 
 from mbla.arrays import FloatArray
 from mbla.contacts.contacts import Contacts
 from mbla.errors import Message
 from mbla.model.model import LoadCase, Model
-from mbla.program import Program, assemble
-from mbla.program.assemble import yield_limits
-from mbla.program.resultants.resultants_map import resultants_map
-from mbla.program.yield_conditions import YieldLimits
-from mbla.solution.associative.repair import repaired_mechanisms
+from mbla.program.yield_conditions.limits import YieldLimits
 from mbla.solution.solution import Checks, Mechanics, Solution
 from mbla.solution.thresholds import LIVE_POWER_DEVIATION, SOLVED_EQUILIBRIUM, SOLVED_RESIDUAL
 from mbla.solution.verification.case import PASSED_ON_ROUNDING, PROVED_RESIDUAL, Case, InterfaceTerms, Motion
@@ -38,7 +32,8 @@ from mbla.solution.verification.interface_laws import (
 )
 from mbla.solution.verification.lock import LASTING
 from mbla.solution.verification.residuals import residuals_of
-from mbla.solution.verification.statics import allowed_motion, largest_on_interface
+from mbla.solution.verification.statics import largest_on_interface
+from mbla.solution.verification.strengths import point_strengths
 from mbla.solution.verification.verify_points import checked
 
 ROUNDED_OFF = 1e-9
@@ -48,9 +43,6 @@ is crushed the excess grows with the square root of that of the conditions."""
 SHARP = 1e-4
 """Share of the forces on a block that the scale of its residuals is not less than: joints that crush under thousands of
 times its weight are solved to 1e-9 of what they bear."""
-
-THRESHOLDS = (0.0, 1e-6, np.inf)
-"""Share of the largest contact speed below which the motion of an interface is taken for rounding and left out."""
 
 WRONG_RESULTANTS = 1e-9
 """Relative distance of stored resultants from those of the stored contact forces that is rounding."""
@@ -99,12 +91,6 @@ class InterfaceCase(Case):
         return interface_laws(self.model, self.contacts, self.contact_model)
 
     @cached_property
-    def program(self) -> Program:
-        """That of the contact points, by which motions are repaired; no verdict comes from it."""
-        program = assemble(self.model, self.contacts, self.load_case, own=False)  # motions are in the common unit
-        return replace(program, limits=program.limits.without_crushing(~self.contacts.tie_points))
-
-    @cached_property
     def _arms(self) -> FloatArray:
         """Of the contact points from the centroids of their interfaces, in their frames, (n_points, 3)."""
         contacts = self.contacts
@@ -126,6 +112,13 @@ class InterfaceCase(Case):
     def motion_of(self, mechanics: Mechanics) -> Motion:
         """How blocks and interfaces move; interfaces do not where no motions are stored."""
         return mechanics.mechanism, self._motions(mechanics.interface_motions)
+
+    def admissible(self, motion: Motion) -> Motion:
+        """The same for the blocks; what a torsional motion lacks in opening is added to it."""
+        mechanism, _ = super().admissible(motion)
+        opened = self._motions(motion[1]).copy()
+        opened[:, 0, 0] += np.maximum(torsion_power(self.laws, opened[:, 0])[1], 0.0)
+        return mechanism, opened
 
     def _motions(self, motions: FloatArray | None) -> FloatArray:
         return np.zeros((len(self.contacts), 2, 6)) if motions is None else motions
@@ -201,37 +194,6 @@ class InterfaceCase(Case):
         """What residuals of each block are relative to, (n_blocks,)."""
         return self.scale.rounded_scale(self.contacts, forces, factor, SHARP)
 
-    def repaired_forces(self, mechanics: Mechanics) -> tuple[FloatArray, float] | None:
-        """The given forces, (n_points, 3) N, and load factor: repaired when they were found, with all conditions."""
-        return mechanics.contact_forces, mechanics.load_factor
-
-    def repaired_motions(self, motion: Motion) -> Iterator[Motion]:
-        """Mechanism and motions of the interfaces, as given and repaired.
-
-        What a torsional motion lacks in opening is added to it first.
-        """
-        program, to_deck = self.program, self.program.scaling.live / self.program.scaling.force
-        opened = self._motions(motion[1]).copy()
-        opened[:, 0, 0] += np.maximum(torsion_power(self.laws, opened[:, 0])[1], 0.0)
-        for u, moved in self._compatible(program.velocities(motion[0]), opened / to_deck):
-            yield allowed_motion(self.model, program.mechanism(u), self.scale.arms), moved * to_deck
-
-    def _compatible(self, velocities: FloatArray, motions: FloatArray) -> Iterator[tuple[FloatArray, FloatArray]]:
-        """Versions of the velocities of the blocks, (n_rows,), moved towards compatibility, with motions.
-
-        motions : (n_interfaces, 2, 6) of the interfaces, in the program's units. They are taken as they are, without
-                  those that are rounding, and left out; all of them count as one more velocity, whose value is 1 first
-        """
-        program, map_ = self.program, resultants_map(self.contacts)
-        yield velocities, motions
-        speed = float(np.abs(program.contact_velocities(velocities)).max(initial=0.0))
-        size = np.abs(motions).max(axis=2, keepdims=True)
-        for threshold in THRESHOLDS:
-            kept = np.where(size > threshold * speed, motions, 0.0)
-            together = sp.csr_array((map_.T @ kept.sum(axis=1).ravel())[None, :])
-            for u in repaired_mechanisms(_with_motion(program, together), np.append(velocities, 1.0)):
-                yield u[:-1], float(u[-1]) * kept
-
     def forces_prove(self, forces: FloatArray, factor: float) -> bool:
         """Whether forces balance the loads within all conditions, those of interfaces too, up to rounding.
 
@@ -268,20 +230,7 @@ class InterfaceCase(Case):
 
 def point_limits(model: Model, contacts: Contacts) -> YieldLimits:
     """Strengths of the contact points alone, which do not crush where their interface does; ties keep theirs."""
-    return yield_limits(model, contacts).without_crushing(~contacts.tie_points)
-
-
-def _with_motion(program: Program, motion: sp.csr_array) -> Program:
-    """The program with a motion of interfaces behind the velocities of the blocks: v = Aᵀu − motionᵀ w.
-
-    motion : (1, 3 n_points)
-    """
-    return replace(
-        program,
-        equilibrium_matrix=sp.csr_array(sp.vstack([program.equilibrium_matrix, -motion])),
-        dead_load=np.append(program.dead_load, 0.0),
-        live_load=np.append(program.live_load, 0.0),
-    )
+    return point_strengths(model, contacts).without_crushing(~contacts.tie_points)
 
 
 def _wrong_resultants(case: InterfaceCase, mechanics: Mechanics) -> tuple[Message, ...]:

@@ -2,7 +2,7 @@
 
 No solver is called and no matrix of the program stage is used for a verdict: forces are summed over blocks and
 velocities taken from rigid-body motion directly (``statics``). The residuals are defined in
-:mod:`mbla.solution.verification.residuals`, what the bounds prove in :mod:`mbla.solution.associative.proofs`.
+:mod:`mbla.solution.verification.residuals`, what the bounds prove in :mod:`mbla.solution.verification.proofs`.
 
 What may be claimed follows from the figures alone, by the limits of :mod:`mbla.solution.thresholds`.
 """
@@ -16,7 +16,6 @@ import numpy as np
 from mbla.contacts.contacts import Contacts
 from mbla.errors import Message
 from mbla.model.model import LoadCase, Model
-from mbla.solution.associative.proofs import associative_bounds, certificate_failures
 from mbla.solution.solution import WITH_VALUE, Checks, Solution, Status
 from mbla.solution.thresholds import (
     APPROXIMATE_RESIDUAL,
@@ -28,6 +27,7 @@ from mbla.solution.thresholds import (
 )
 from mbla.solution.verification.case import Case
 from mbla.solution.verification.elastic_law import elastic_residual
+from mbla.solution.verification.proofs import associative_bounds, certificate_failures
 from mbla.solution.verification.residuals import Residuals, residuals_of
 
 

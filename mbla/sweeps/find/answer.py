@@ -23,7 +23,8 @@ from mbla.results.outcome import least_known, locked_in, result_of
 from mbla.results.results import CaseResult
 from mbla.results.sta import StatusFile
 from mbla.run import solve_case
-from mbla.solution.further.geometric_safety.joint_pressure import joint_pressure, pressed_by
+from mbla.solution.further.geometric_safety.joint_pressure import joint_pressure
+from mbla.solution.further.geometric_safety.pressed import pressed_by
 from mbla.solution.further.sensitivity.sensitivity import slope_by
 from mbla.solution.further.sensitivity.structures import Structure
 from mbla.solution.settings import solver_settings

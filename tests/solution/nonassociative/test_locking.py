@@ -11,10 +11,10 @@ from mbla.arrays import FloatArray
 from mbla.program.program import Program
 from mbla.program.reductions import reduce_program
 from mbla.program.reductions.steps import ReductionSwitches
-from mbla.solution.associative.repair import repaired_forces
 from mbla.solution.associative.solve_associative import solve_associative
 from mbla.solution.nonassociative import locking
 from mbla.solution.nonassociative.locking import locking_forces
+from mbla.solution.proof.static_repair import repaired_forces
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Status
 from mbla.solution.verification.lock import lock_failures

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 import scipy.sparse as sp
 
-from mbla.solution.associative.augmented_step import augmented_solver
 from mbla.solution.cone_solvers.cone_vectors import ConeVectors
+from mbla.solution.proof.augmented_step import augmented_solver
 from tests.extremes.weights import TOWER, tower_factor
 from tests.line import Line, line_of, line_of_file
 from tests.solution.convex_structures import DECKS, convex

@@ -14,12 +14,14 @@ from mbla.solution.verification.interface_laws import (
     crushing_excess,
     crushing_power,
     interface_laws,
+    shear_strength,
     sliding_power,
     torsion_excess,
     torsion_power,
 )
 from tests.line import HEAD, line_of
 from tests.program.resultants.polygons import points_inside
+from tests.program.resultants.test_shapes import shapes_of
 from tests.solution.outlines import OUTLINES, PIECES, STRENGTH, area_of, full_stress, laws_of, random_closing
 
 ONE = (
@@ -234,3 +236,44 @@ def test_what_cannot_crush_takes_any_power_or_none() -> None:
     motions[1, 0] = -1e-9
     assert crushing_power(laws, motions).tolist() == [0.0, np.inf]
     assert np.all(crushing_excess(laws, 1e9 * np.ones((2, 6))) == -np.inf)
+
+
+TRIANGLE = ((0.0, 0.0), (1.0, 0.0), (0.25, 0.75))
+
+
+def triangle(friction: float = 0.5, cohesion: float = 0.0) -> InterfaceLaws:
+    return InterfaceLaws(
+        shapes=shapes_of(*TRIANGLE),
+        friction=np.array([friction]),
+        cohesion=np.array([cohesion]),
+        tension=np.zeros(1),
+        strength=np.array([np.inf]),
+        torsional=np.array([friction > 0.0 or cohesion > 0.0]),
+        crushable=np.array([False]),
+    )
+
+
+def pressed_at(place: FloatArray, normal: float = 2.0) -> FloatArray:
+    """Resultants of a normal force at a place of the interface, from its centroid."""
+    return np.array([[normal, 0.0, 0.0, 0.0, place[1] * normal, -place[0] * normal]])
+
+
+@pytest.mark.parametrize("cohesion", [0.0, 0.25])
+def test_what_acts_over_the_whole_area_falls_to_the_corners_and_edges(cohesion: float) -> None:
+    """R = μ N (1 - t) + c A with the force on the way t from the centroid to the outline."""
+    laws = triangle(cohesion=cohesion)
+    corners = laws.shapes.corners
+    for place in (*corners, *(0.5 * (corners + np.roll(corners, -1, axis=0)))):
+        for t in (0.0, 0.25, 1.0):
+            total, share = shear_strength(laws, pressed_at(t * place))
+            assert total == pytest.approx(0.5 * 2.0 + cohesion)
+            assert share == pytest.approx((1 - t) * 0.5 * 2.0 + cohesion, abs=1e-12)
+
+
+def test_the_rest_of_torsion_is_what_no_twist_needs() -> None:
+    """All of R at rest, none where the limit is reached, and less than none beyond."""
+    laws, r = triangle(), pressed_at(np.zeros(2))
+    for twist, left in ((0.0, 1.0), (0.25, 0.75), (1.0, 0.0), (2.0, -1.0)):  # μ N = 1: m of the curve of this size
+        r[0, 3] = twist * laws.shapes.radii[0]
+        assert -torsion_excess(laws, r) == pytest.approx(left, abs=1e-12)
+    assert np.isneginf(torsion_excess(triangle(0.0), r)).all()

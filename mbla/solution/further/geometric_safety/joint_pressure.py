@@ -11,17 +11,17 @@ sides. The program starts from a pressure −P at which it stands, so that its l
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
 from mbla.deck.sections.analysis import AnalysisSection
 from mbla.solution.cone_solvers.cone_solution import Log
+from mbla.solution.further.geometric_safety.pressed import pressed_by, unit_of_pressure
 from mbla.solution.further.sensitivity.structures import Structure
 from mbla.solution.sequence.sequence import analysed
 from mbla.solution.settings import solver_settings
 from mbla.solution.solution import WITH_VALUE, Checks, Solution, Status
-from mbla.solution.verification.statics import contact_resultants
 
 PRESSED = 100.0
 """Pressure at which it is searched for first, in units: most structures stand under that"""
@@ -75,20 +75,3 @@ def joint_pressure(structure: Structure, analysis: AnalysisSection, log: Log | N
         if found.status is not Status.NO_EQUILIBRIUM or pressed >= MOST_PRESSED:
             return JointPressure(posed, found.solution, found.checks, found.status, pressed, unit, solves)
         pressed *= 10.0
-
-
-def unit_of_pressure(structure: Structure) -> float:
-    """Sum of the dead forces on free blocks over the area of all joints; 1 where there is neither."""
-    forces = np.linalg.norm(structure.load_case.dead_load[structure.model.free, :3], axis=1).sum()
-    area = structure.contacts.areas.sum()
-    return float(forces / area) if forces > 0.0 and area > 0.0 else 1.0
-
-
-def pressed_by(structure: Structure, pressed: float, unit: float) -> Structure:
-    """The structure whose joints are pressed together, and whose live load takes that away; ``unit`` of pressure."""
-    contacts, case = structure.contacts, structure.load_case
-    normal = np.zeros((len(contacts.points), 3))
-    normal[:, 0] = unit * contacts.point_areas
-    apart = contact_resultants(structure.model, contacts, normal)
-    posed = replace(case, dead_load=case.dead_load - pressed * apart, live_load=apart, tilt=None)
-    return replace(structure, load_case=posed)

@@ -24,10 +24,11 @@ from dataclasses import dataclass
 from mbla.program.program import Program
 from mbla.program.reductions import reduce_program
 from mbla.program.reductions.steps import ReductionSwitches
-from mbla.solution.associative.bounds import ZERO_FACTOR, CertifiedGap, certified_gap, factor_size
 from mbla.solution.associative.solve_associative import AssociativeResult, solve_associative
+from mbla.solution.proof.bounds import CertifiedGap, certified_gap, factor_size
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Status
+from mbla.solution.thresholds import ZERO_FACTOR
 from tests.line import line_of
 from tests.solution.cone_solvers.interior_point.random_assemblies import (
     FRICTION,

@@ -1,6 +1,6 @@
 """Bounds of the associative load factor that forces and velocities prove once they are repaired.
 
-They are repaired in :mod:`mbla.solution.associative.repair`. Nothing there needs to be trusted: what the repaired
+They are repaired in ``static_repair`` and ``kinematic_repair``. Nothing there needs to be trusted: what the repaired
 forces and velocities prove is evaluated by ``verify`` with its own statics and kinematics. ``certified_gap`` is the
 solver stage's own evaluation of the same, on the program alone.
 """
@@ -15,21 +15,16 @@ from mbla.arrays import FloatArray
 from mbla.process.stopwatch import stage
 from mbla.program.program import Program
 from mbla.solution.associative.condition_cones import ConditionCones
-from mbla.solution.associative.repair import repaired_forces, repaired_mechanisms
 from mbla.solution.nonassociative.law_state import LawState
+from mbla.solution.proof.kinematic_repair import repaired_mechanisms
+from mbla.solution.proof.static_repair import repaired_forces
+from mbla.solution.thresholds import LOCKED_IN, ZERO_FACTOR
 
 CHARGED = 2.0
 """Normal force, over the largest of the solution, with which rounding in a mechanism's compatibility is charged."""
 
-LOCKED_IN = 1e4
-"""Normal force, over the total dead load, that would have to be locked in to hold a structure that a motion with
-rounding says to fall."""
-
 WORK_ROUNDING = 1e-13
 """Work of the dead load, over the sum of its parts, that may be rounding."""
-
-ZERO_FACTOR = 1e-3
-"""Load factors below this share of dead over live load are taken for that share in relative measures."""
 
 
 @dataclass(frozen=True)

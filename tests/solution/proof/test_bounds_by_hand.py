@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 from mbla.program.program import Program
-from mbla.solution.associative.bounds import (
+from mbla.solution.nonassociative.law_state import LawState
+from mbla.solution.proof.bounds import (
     CertifiedGap,
     certified_gap,
     dissipation,
@@ -16,7 +17,6 @@ from mbla.solution.associative.bounds import (
     falling_motion,
     kinematic_value,
 )
-from mbla.solution.nonassociative.law_state import LawState
 from tests.solution.by_hand import own_points
 
 # One contact point, friction 1/2: velocities of the rows are those of the point.
@@ -73,9 +73,9 @@ def test_the_size_of_load_factors(dead: list[float], strengths: dict[str, float]
 def mended(monkeypatch: pytest.MonkeyPatch) -> dict[str, Any]:
     """What the repair makes of forces and of velocities: set by the test."""
     of: dict[str, Any] = {"forces": None, "motions": None}
-    monkeypatch.setattr("mbla.solution.associative.bounds.repaired_forces", lambda *_: of["forces"])
+    monkeypatch.setattr("mbla.solution.proof.bounds.repaired_forces", lambda *_: of["forces"])
     monkeypatch.setattr(
-        "mbla.solution.associative.bounds.repaired_mechanisms",
+        "mbla.solution.proof.bounds.repaired_mechanisms",
         lambda _, u: [u] if of["motions"] is None else of["motions"],
     )
     return of

@@ -12,6 +12,7 @@ from mbla.assembly.lift import motions_of_bodies
 from mbla.assembly.rigid_bodies import RigidBodies
 from mbla.model.model import LoadCase
 from mbla.program.assemble import yield_limits
+from mbla.solution.contact_modes import contact_modes
 from mbla.solution.lifted import (
     MOTIONS,
     model_of,
@@ -20,7 +21,6 @@ from mbla.solution.lifted import (
     ties_apart,
     without_rounding,
 )
-from mbla.solution.mechanics import contact_modes
 from mbla.solution.of_interfaces import of_interfaces
 from mbla.solution.solution import Mechanics, Solution
 from mbla.solution.verification.statics import contact_velocities

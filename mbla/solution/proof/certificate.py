@@ -20,11 +20,12 @@ import scipy.sparse as sp
 from mbla.arrays import FloatArray
 from mbla.program.kinematic import kinematic_form
 from mbla.program.program import Program
-from mbla.solution.associative.bounds import LOCKED_IN, dissipation
 from mbla.solution.cone_solvers.choice import cone_solver
 from mbla.solution.cone_solvers.cone_solution import Log
+from mbla.solution.proof.bounds import dissipation
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import WITH_VALUE
+from mbla.solution.thresholds import LOCKED_IN
 
 FALL_TOLERANCE = 1e-12
 """Of the program: a load that is not carried by 1e-6 of itself shows then, at 1e-10 only one by 1e-4."""

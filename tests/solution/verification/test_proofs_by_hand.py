@@ -3,18 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 import pytest
 
-from mbla.arrays import FloatArray
-from mbla.program.program import Program
-from mbla.solution.associative.proofs import associative_bounds, certificate_failures
 from mbla.solution.solution import Mechanics
 from mbla.solution.verification.case import Case
+from mbla.solution.verification.proofs import associative_bounds, certificate_failures
 from tests.line import BLOCK, Line, line_of
 from tests.solution.by_hand import cube, loaded, on_ground, state
 
@@ -44,24 +40,6 @@ def mortar() -> Line:
 def weak() -> Line:
     """Strength 16 at each corner."""
     return block("friction: 0.5, compressive_strength: 64")
-
-
-@pytest.fixture(autouse=True)
-def mended(monkeypatch: pytest.MonkeyPatch) -> dict[str, Any]:
-    """Forces and velocities are left as they are, or are mended into what the test says."""
-    of: dict[str, Any] = {"forces": True, "motions": None, "asked": 0}
-
-    def mechanisms(program: Program, velocities: FloatArray) -> Iterator[FloatArray]:
-        for u in (velocities,) if of["motions"] is None else [program.velocities(np.array([u])) for u in of["motions"]]:
-            of["asked"] += 1
-            yield u
-
-    monkeypatch.setattr("mbla.solution.verification.case.repaired_mechanisms", mechanisms)
-    monkeypatch.setattr(
-        "mbla.solution.verification.case.repaired_forces",
-        lambda _, forces, factor: (forces, factor) if of["forces"] else None,
-    )
-    return of
 
 
 def proved(line: Line, mechanics: Mechanics) -> tuple[float, float]:
@@ -98,13 +76,6 @@ def test_what_is_beyond_yield_is_taken_as_well(size: float, dry: Line) -> None:
     static, _ = proved(dry, of_block(dry, 2.0 + 3.1e-8, 4.0 + 6.2e-8, size=size))
     assert static == pytest.approx(2.0 + 3.1e-8 * (1.0 - 8.0 * speed), abs=1e-12)
     assert np.isnan(proved(dry, of_block(dry, 2.0 + 3.3e-8, 4.0 + 6.6e-8, size=size))[0])
-
-
-def test_forces_that_cannot_be_mended_prove_nothing(dry: Line, mended: dict[str, Any]) -> None:
-    mended["forces"] = False
-    static, kinematic = proved(dry, of_block(dry, 2.0, 4.0))
-    assert np.isnan(static)
-    assert kinematic == pytest.approx(2.0)
 
 
 def test_without_a_mechanism_forces_prove_what_they_carry(dry: Line) -> None:
@@ -156,32 +127,6 @@ def test_small_forces_charge_little(dry: Line) -> None:
 def rising(by: float) -> tuple[float, ...]:
     """Proves 32 times that."""
     return (0.125, 0, by, 0, 0, 0)
-
-
-def test_the_least_bound_counts(dry: Line, mended: dict[str, Any]) -> None:
-    mended["motions"] = [(-0.125, 0, 0, 0, 0, 0), rising(0.25), rising(0.0625 + 1e-3), rising(0.125)]
-    assert proved(dry, of_block(dry, 2.0, 4.0))[1] == pytest.approx(2.0 + 32e-3)
-    assert mended["asked"] == 4
-
-
-@pytest.mark.parametrize(("large", "off", "asked"), [(5, 0.9e-5, 1), (5, 1.1e-5, 2), (6, 0.9e-5, 2), (5, -1.0, 2)])
-def test_large_models_are_content_with_a_mechanism_that_is_near(
-    large: int, off: float, asked: int, dry: Line, mended: dict[str, Any], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """Of six rows."""
-    monkeypatch.setattr("mbla.solution.associative.proofs.LARGE", large)
-    first = (-0.125, 0, 0, 0, 0, 0) if off < 0 else rising(0.0625 * (1.0 + off))
-    mended["motions"] = [first, rising(0.0625)]
-    static, kinematic = proved(dry, of_block(dry, 2.0, 4.0))
-    assert static == pytest.approx(2.0)
-    assert mended["asked"] == asked
-    assert kinematic == pytest.approx(2.0 * (1.0 + off) if asked == 1 else 2.0, abs=1e-9)
-
-
-def test_models_of_some_thousand_blocks_are_repaired(dry: Line, mended: dict[str, Any]) -> None:
-    mended["motions"] = [rising(0.0625), rising(0.0625)]
-    proved(dry, of_block(dry, 2.0, 4.0))
-    assert mended["asked"] == 2
 
 
 def test_one_corner_beyond_yield_is_enough(dry: Line) -> None:
@@ -273,17 +218,6 @@ def test_what_crushes_takes_work_and_no_charge(weak: Line) -> None:
     assert against_a_fall(weak, (2, 0, 0, 0, 0, 0)) == NO_WORK
     assert against_a_fall(weak, (2, 0, 0.45, 0, 0, 0)) == NO_WORK  # 33.6 less 35.2
     assert against_a_fall(weak, (2, 0, 0.55, 0, 0, 0)) == ()  # 30.4 less 28.8
-
-
-def test_the_first_motion_that_proves_it_counts_and_the_first_failure_is_told(
-    dry: Line, mended: dict[str, Any]
-) -> None:
-    mended["motions"] = [(-2, 0, 1, 0, 0, 0), (2, 0, 1, 0, 0, 0)]
-    assert against_a_fall(dry, (0, 0, 0, 0, 0, 0)) == ()
-    mended["motions"] = [(-2, 0, 1, 0, 0, 0), (2, 0, 0, 0, 0, 0)]
-    assert against_a_fall(dry, (0, 0, 0, 0, 0, 0)) == NO_WORK
-    mended["motions"] = mended["motions"][::-1]
-    assert "closes joints" in against_a_fall(dry, (0, 0, 0, 0, 0, 0))[0]
 
 
 @pytest.mark.parametrize(("off", "proves"), [(7e-9, True), (4e-8, False)])

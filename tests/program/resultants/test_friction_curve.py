@@ -1,10 +1,9 @@
-"""Friction with torsion: curves inside the true limit, and how the sizes of their sets follow the forces."""
+"""Friction with torsion: curves inside the true limit."""
 
 import numpy as np
 import pytest
 
 from mbla.arrays import FloatArray
-from mbla.program.resultants.conditions import M1, M2, N
 from mbla.program.resultants.friction_curve import (
     disc_radius,
     fitted_curves,
@@ -12,53 +11,7 @@ from mbla.program.resultants.friction_curve import (
     rectangle_curve,
     safe_torsion,
 )
-from mbla.program.resultants.friction_limit import (
-    friction_limit,
-    torsion_reserve,
-)
-from mbla.program.resultants.torsion import TorsionLimits, torsion_limits
 from tests.program.resultants.polygons import SHAPES, points_inside, rectangle, regular
-from tests.program.resultants.test_shapes import shapes_of
-
-TRIANGLE = ((0.0, 0.0), (1.0, 0.0), (0.25, 0.75))
-
-
-def triangle(friction: float = 0.5, cohesion: float = 0.0) -> TorsionLimits:
-    return torsion_limits(shapes_of(*TRIANGLE), np.array([friction]), np.array([cohesion]))
-
-
-def pressed_at(place: FloatArray, normal: float = 2.0) -> FloatArray:
-    """Resultants of a normal force at a place of the interface, from its centroid."""
-    r = np.zeros((1, 6))
-    r[0, N], r[0, M1], r[0, M2] = normal, place[1] * normal, -place[0] * normal
-    return r
-
-
-@pytest.mark.parametrize("cohesion", [0.0, 0.25])
-def test_what_acts_over_the_whole_area_falls_to_the_corners_and_edges(cohesion: float) -> None:
-    """R = μ N (1 - t) + c A with the force on the way t from the centroid to the outline."""
-    limits = triangle(cohesion=cohesion)
-    corners = limits.corners
-    for place in (*corners, *(0.5 * (corners + np.roll(corners, -1, axis=0)))):
-        for t in (0.0, 0.25, 1.0):
-            size = friction_limit(limits, pressed_at(t * place))
-            assert size.total == pytest.approx(0.5 * 2.0 + cohesion)
-            assert size.share == pytest.approx((1 - t) * 0.5 * 2.0 + cohesion, abs=1e-12)
-    beyond = friction_limit(limits, pressed_at(3.0 * corners[0]))
-    assert beyond.share == pytest.approx(0.0)
-
-
-def test_reserve_is_what_no_twist_needs() -> None:
-    """All of it at rest, none where the limit is reached or passed, and over the largest of all interfaces."""
-    limits = triangle()
-    r = pressed_at(np.zeros(2))
-    assert torsion_reserve(limits, r) == pytest.approx(1.0)
-    for twist, left in ((0.25, 0.75), (1.0, 0.0), (2.0, 0.0)):  # μ N = 1: m of the curve of this size
-        r[0, 3] = twist * limits.radii[0]
-        assert torsion_reserve(limits, r) == pytest.approx(left, abs=1e-12)
-    nothing = torsion_limits(shapes_of(*TRIANGLE), np.zeros(1), np.zeros(1))
-    assert np.isinf(torsion_reserve(nothing, r)).all()
-
 
 SQUARE = (np.sqrt(2) + np.log(1 + np.sqrt(2))) / 6
 

@@ -1,26 +1,21 @@
-"""Forces and mechanisms repaired so that they prove bounds of the associative load factor.
+"""Forces repaired so that they prove a load factor at or below the collapse value.
 
-*Static:* forces in equilibrium with λ and within the yield conditions prove that collapse needs at least λ. The
-solver's forces are inside their cones but balance the loads only to its tolerance. They are corrected in the metric of
-the cones' own barrier, so that a force near the border of its cone moves little: the least Δ in
+Forces in equilibrium with λ and within the yield conditions do. The solver's forces are inside their cones but balance
+the loads only to its tolerance. They are corrected in the metric of the cones' own barrier, so that a force near the
+border of its cone moves little: the least Δ in
 
     A Δx + f_L Δλ = −(A x + f_D + λ f_L),    weighted by the barrier's Hessian at x
 
-stays inside all cones if it is short (Dikin's ellipsoid; Nesterov and Nemirovskii 1994, theorem 2.1.1).
-
-*Kinematic:* velocities compatible with the yield conditions give a load factor at or above the collapse value. The
-solver's mechanism is moved, in the metric of the cones' own barrier, towards contact velocities strictly inside them.
-
-The barrier of a cone ‖T‖ ≤ s is −log(s² − ‖T‖²), that of a half-line −log of its slack. Forces and velocities have two
-or three components.
+stays inside all cones if it is short (Dikin's ellipsoid; Nesterov and Nemirovskii 1994, theorem 2.1.1). It is found by
+normal equations, or by an augmented system where these have no digits left.
 
 Conditions on interfaces are further cones: their slacks s stand beside the forces, in balance in the rows of their
-unknowns ψ, and cones @ ψ beside the contact velocities (:mod:`mbla.program.conditions`).
+unknowns ψ (:mod:`mbla.program.conditions`).
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -30,77 +25,11 @@ from mbla.arrays import FloatArray
 from mbla.process.stopwatch import stage
 from mbla.program.program import Program
 from mbla.program.yield_conditions import YieldLimits, yield_violation
-from mbla.solution.associative.augmented_step import augmented_solver
 from mbla.solution.associative.condition_cones import ConditionCones
-from mbla.solution.linear_algebra.block_products import block_diagonal, inverses
+from mbla.solution.linear_algebra.block_products import block_diagonal
 from mbla.solution.linear_algebra.bordered_system import PROGRESS, ROUNDS, bordered_solver
-
-TINY = 1e-100
-"""Stands for zero slack: its square and the square of its inverse are within the range of numbers."""
-
-
-def force_metric(limits: YieldLimits, x: FloatArray) -> sp.csr_array:
-    """Inverse Hessian of the barriers of all yield conditions at forces strictly inside, block-diagonal.
-
-    A row for each number of x, (n_points, components).
-    """
-    return block_diagonal(force_blocks(limits, x))
-
-
-@np.errstate(over="ignore", invalid="ignore")
-def force_blocks(limits: YieldLimits, x: FloatArray) -> FloatArray:
-    """Blocks of ``force_metric``, one for each point.
-
-    Points without shear strength keep T = 0. Not finite where squares of forces are beyond the range of numbers.
-
-    x : (n_points, components)  non-dimensional, compression positive; the blocks are (n_points, components, components)
-    """
-    mu, s = limits.friction, limits.cohesion + limits.friction * x[:, 0]
-    t = x[:, 1:]
-    shearless = (mu == 0) & (limits.cohesion == 0)
-    s = np.where(shearless, 1.0, s)
-    det = np.maximum(s**2 - (t**2).sum(axis=1), TINY)
-    hessian = _cone_hessian(np.column_stack([-mu * s, t]), det)
-    hessian[:, 0, 0] -= 2.0 * mu**2 / det
-    hessian[:, range(1, x.shape[1]), range(1, x.shape[1])] += (2.0 / det)[:, None]
-    slack = np.maximum(x[:, 0] + limits.tension, TINY)
-    cut_off = (limits.cohesion > 0) | (mu == 0)
-    hessian[:, 0, 0] += np.where(cut_off, slack**-2, 0.0)
-    finite = np.isfinite(limits.compression)
-    hessian[finite, 0, 0] += np.maximum(limits.compression[finite] - x[finite, 0], TINY) ** -2
-    inverse = _inverse(hessian)
-    inverse[shearless, 1:, :] = 0.0
-    inverse[shearless, :, 1:] = 0.0
-    return inverse
-
-
-@np.errstate(over="ignore", invalid="ignore")
-def velocity_hessian(friction: FloatArray, v: FloatArray) -> FloatArray:
-    """Hessian of −log(v_N² − μ² ‖v_T‖²) at velocities strictly inside; −log v_N² where μ = 0.
-
-    Not finite where squares of velocities are beyond the range of numbers.
-
-    friction : (n,); v : (n, components)  opening positive; the Hessians are (n, components, components)
-    """
-    squared = friction**2
-    det = np.maximum(v[:, 0] ** 2 - squared * (v[:, 1:] ** 2).sum(axis=1), TINY)
-    hessian = _cone_hessian(np.column_stack([-v[:, 0], squared[:, None] * v[:, 1:]]), det)
-    hessian[:, 0, 0] -= 2.0 / det
-    hessian[:, range(1, v.shape[1]), range(1, v.shape[1])] += (2.0 * squared / det)[:, None]
-    return hessian
-
-
-def _cone_hessian(gradient: FloatArray, det: FloatArray) -> FloatArray:
-    gradient = gradient * (2.0 / det)[:, None]
-    return np.asarray(gradient[:, :, None] * gradient[:, None, :])
-
-
-def _inverse(hessian: FloatArray) -> FloatArray:
-    """Inverse of each block; scaled to unit diagonal, so that points with forces 1e-12 of the others keep accuracy."""
-    size = 1.0 / np.sqrt(np.maximum(np.einsum("nii->ni", hessian), TINY))
-    unit = hessian * size[:, :, None] * size[:, None, :] + 1e-14 * np.eye(hessian.shape[1])[None]
-    return np.asarray(inverses(unit) * size[:, :, None] * size[:, None, :])
-
+from mbla.solution.proof.augmented_step import augmented_solver
+from mbla.solution.proof.metrics import force_blocks, force_metric, roots
 
 EQUILIBRIUM_TOLERANCE = 1e-9
 """Residual, relative to the mean load of a block, that counts as equilibrium: where all joints of a sliding plane are
@@ -294,129 +223,48 @@ def _static_correction(program: Program, further: ConditionCones, now: _Forces, 
     needed = 2.0 * np.linalg.norm(x[:, 1:], axis=1) / np.maximum(x[:, 0], least)
     limits = replace(limits, friction=np.minimum(limits.friction, np.maximum(STEEP, needed)))
     free = 1e-4 * max(abs(now.factor), 1e-3)
-    change_of = (_augmented if way.augmented else _normal)(further, limits, now, free)
-    if change_of is None:
+    step = (_augmented if way.augmented else _normal)(further, limits, now, free)
+    if step is None:
         return None
+    solve, forces_of = step
     change = _Forces(np.zeros_like(x), np.zeros_like(now.s), 0.0)
     for _ in range(4):  # refinement: the metric spans many decades
         moved = now.plus(change)
-        more = change_of(-further.unbalanced(moved.x, moved.s, moved.factor))
-        if more is None:
+        y = solve(-further.unbalanced(moved.x, moved.s, moved.factor))
+        if not np.isfinite(y).all():
             return None
-        change = change.plus(more)
+        change = change.plus(forces_of(y))
     return change
 
 
-ChangeOf = Callable[[FloatArray], _Forces | None]
-"""The change that takes away what is unbalanced, (n_rows + n_unknowns,); None where it is no number."""
+Step = tuple[Callable[[FloatArray], FloatArray], Callable[[FloatArray], _Forces]]
+"""Unknowns that take away what is unbalanced, from (n_rows + n_unknowns,), and the change of forces that they mean."""
 
 
-def _normal(further: ConditionCones, limits: YieldLimits, now: _Forces, free: float) -> ChangeOf | None:
+def _normal(further: ConditionCones, limits: YieldLimits, now: _Forces, free: float) -> Step | None:
+    """By normal equations: multipliers of the rows, and the change of the load factor."""
     matrix, held, live = further.moving.equilibrium_matrix, further.held, further.moving.live_load
     weights, of_slacks = force_metric(limits, now.x), further.cones.inverse_hessian(now.s)
     normal = further.with_slacks(matrix @ weights @ matrix.T, of_slacks)
     solve = bordered_solver(normal, live, free * free)  # not **, which raises beyond numbers
-    if solve is None:
-        return None
 
-    def change(rhs: FloatArray) -> _Forces | None:
-        y = solve(rhs)
-        if not np.isfinite(y).all():
-            return None
+    def forces_of(y: FloatArray) -> _Forces:
         x = (weights @ (matrix.T @ y[:-1])).reshape(now.x.shape)
         return _Forces(x, of_slacks @ (held.T @ y[:-1]), float(y[-1]))
 
-    return change
+    return None if solve is None else (solve, forces_of)
 
 
-def _augmented(further: ConditionCones, limits: YieldLimits, now: _Forces, free: float) -> ChangeOf | None:
+def _augmented(further: ConditionCones, limits: YieldLimits, now: _Forces, free: float) -> Step | None:
+    """By the augmented system: changes of load factor, forces and slacks in units of their metric."""
     matrix, held, live = further.moving.equilibrium_matrix, further.held, further.moving.live_load
-    of_points = block_diagonal(_roots(force_blocks(limits, now.x)))
+    of_points = block_diagonal(roots(force_blocks(limits, now.x)))
     of_slacks = further.cones.root_of_inverse_hessian(now.s)
     rows = sp.hstack([sp.csr_array(free * live[:, None]), matrix @ of_points, held @ of_slacks])
     solve = augmented_solver(sp.csr_array(rows))
-    if solve is None:
-        return None
 
-    def change(rhs: FloatArray) -> _Forces | None:
-        y = solve(rhs)
-        if not np.isfinite(y).all():
-            return None
+    def forces_of(y: FloatArray) -> _Forces:
         factor, x, s = np.split(y, [1, 1 + now.x.size])
         return _Forces((of_points @ x).reshape(now.x.shape), of_slacks @ s, free * float(factor[0]))
 
-    return change
-
-
-def _roots(blocks: FloatArray) -> FloatArray:
-    """L with L Lᵀ each block, (n, k, k), of its unit-diagonal eigenvectors."""
-    size = np.sqrt(np.maximum(np.einsum("nii->ni", blocks), TINY))
-    values, vectors = np.linalg.eigh(blocks / size[:, :, None] / size[:, None, :])
-    return np.asarray(size[:, :, None] * vectors * np.sqrt(np.maximum(values, 0.0))[:, None, :])
-
-
-OPENINGS = (1e-13, 1e-11, 1e-9)
-"""Opening velocities, relative to the largest contact speed, that the mechanism is moved towards in turn until it is
-compatible; the best one counts. Confined joints cannot open at all: there the smallest leaves least to be charged."""
-
-
-def repaired_mechanisms(program: Program, velocities: FloatArray) -> Iterator[FloatArray]:
-    """The given velocities, and versions of them moved towards compatibility.
-
-    Each is found when it is asked for.
-
-    velocities : (n_rows + n_unknowns,) of the blocks, then unknowns of the conditions on interfaces; non-dimensional
-    """
-    yield velocities
-    further = ConditionCones.of(program)
-    for opening in OPENINGS:
-        u, lack = velocities, np.inf
-        for _ in range(ROUNDS):
-            moved = _kinematic_correction(further, u, opening)
-            if moved is None:
-                break
-            yield moved
-            u, before, lack = moved, lack, incompatibility(program, moved)
-            if lack == 0.0:
-                return
-            if lack > PROGRESS * before:
-                break
-
-
-def incompatibility(program: Program, velocities: FloatArray) -> float:
-    """Sum of μ s − v_N over points that cannot crush, where that is positive, and of what conditions lack.
-
-    velocities : (n_rows + n_unknowns,)  non-dimensional
-    """
-    further = ConditionCones.of(program)
-    v = further.moving.contact_velocities(velocities)
-    lack = np.maximum(program.limits.friction * np.linalg.norm(v[:, 1:], axis=1) - v[:, 0], 0.0)
-    of_conditions = further.lack(further.held.T @ velocities)
-    return float(lack[np.isinf(program.limits.compression)].sum() + of_conditions.sum())
-
-
-@stage("repair")
-def _kinematic_correction(further: ConditionCones, u: FloatArray, opening: float) -> FloatArray | None:
-    """Least change, in the barrier's metric, towards velocities that open by ``opening`` of the largest speed."""
-    program = further.moving
-    mu, matrix, held = program.limits.friction, program.equilibrium_matrix, further.held
-    v = program.contact_velocities(u)
-    speed = max(float(np.abs(v).max(initial=0.0)), 1e-9 * float(np.abs(u).max(initial=0.0)), 1e-150)
-    target = v.copy()
-    target[:, 0] = np.maximum(v[:, 0], mu * np.linalg.norm(v[:, 1:], axis=1) + opening * speed)
-    wanted = further.inside_by(held.T @ u, opening)
-    weights = velocity_hessian(mu, target)
-    # joints that can crush need not open: they only keep the velocity from straying
-    weak = 1.0 / (speed * speed)  # not **, which raises beyond numbers
-    weights[np.isfinite(program.limits.compression)] = weak * np.eye(program.components)
-    metric, of_conditions = block_diagonal(weights), further.hessian(wanted)
-    normal = further.with_slacks(matrix @ metric @ matrix.T, of_conditions)
-    solve = bordered_solver(normal, program.live_load, np.inf)
-    if solve is None:
-        return None
-    delta = np.zeros_like(u)
-    for _ in range(3):
-        misfit = matrix @ (metric @ (target.ravel() - matrix.T @ (u + delta)))
-        misfit += held @ (of_conditions @ (wanted - held.T @ (u + delta)))
-        delta = delta + solve(misfit)[:-1]
-    return u + delta if np.isfinite(delta).all() else None
+    return None if solve is None else (solve, forces_of)

@@ -12,17 +12,13 @@ from numpy.typing import NDArray
 from mbla.program.program import Program
 from mbla.program.reductions import allowed_reductions, reduce_program
 from mbla.program.yield_conditions import YieldLimits
-from mbla.solution.associative.bounds import certified_gap, falling_motion, kinematic_value
-from mbla.solution.associative.repair import (
-    force_metric,
-    incompatibility,
-    repaired_forces,
-    repaired_mechanisms,
-    velocity_hessian,
-)
 from mbla.solution.associative.solve_associative import solve_associative
 from mbla.solution.linear_algebra.bordered_system import bordered_solver
 from mbla.solution.nonassociative.law_state import LawState
+from mbla.solution.proof.bounds import certified_gap, falling_motion, kinematic_value
+from mbla.solution.proof.kinematic_repair import incompatibility, repaired_mechanisms
+from mbla.solution.proof.metrics import force_metric, velocity_hessian
+from mbla.solution.proof.static_repair import repaired_forces
 from mbla.solution.settings import SolverSettings
 from tests.line import BLOCK, WALL, line_of, verified
 

@@ -10,7 +10,7 @@ import pytest
 
 from mbla.arrays import FloatArray
 from mbla.program.kinematic import ConeProgram
-from mbla.solution.associative.certificate import steepest_fall
+from mbla.solution.proof.certificate import steepest_fall
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Status
 from tests.solution.by_hand import own_points
@@ -50,7 +50,7 @@ def fall_of(
         assert program.cost[:12].tolist() == (-PROGRAM.dead_load + 0.25 * np.eye(12)[0]).tolist()
         return SimpleNamespace(solve=solve)
 
-    monkeypatch.setattr("mbla.solution.associative.certificate.cone_solver", solver)
+    monkeypatch.setattr("mbla.solution.proof.certificate.cone_solver", solver)
     found = steepest_fall(PROGRAM, SETTINGS, lambda record: None)
     assert asked == [(1, 0.0)]  # the first program, without a load factor to be told
     return found

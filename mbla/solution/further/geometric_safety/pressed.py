@@ -1,0 +1,27 @@
+"""Loads of a structure whose joints a uniform pressure, as of water, presses together."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from mbla.solution.further.sensitivity.structures import Structure
+from mbla.solution.verification.statics import contact_resultants
+
+
+def unit_of_pressure(structure: Structure) -> float:
+    """Sum of the dead forces on free blocks over the area of all joints; 1 where there is neither."""
+    forces = np.linalg.norm(structure.load_case.dead_load[structure.model.free, :3], axis=1).sum()
+    area = structure.contacts.areas.sum()
+    return float(forces / area) if forces > 0.0 and area > 0.0 else 1.0
+
+
+def pressed_by(structure: Structure, pressed: float, unit: float) -> Structure:
+    """The structure whose joints are pressed together, and whose live load takes that away; ``unit`` of pressure."""
+    contacts, case = structure.contacts, structure.load_case
+    normal = np.zeros((len(contacts.points), 3))
+    normal[:, 0] = unit * contacts.point_areas
+    apart = contact_resultants(structure.model, contacts, normal)
+    posed = replace(case, dead_load=case.dead_load - pressed * apart, live_load=apart, tilt=None)
+    return replace(structure, load_case=posed)
