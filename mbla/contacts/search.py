@@ -24,9 +24,8 @@ from mbla.contacts.overlaps import SLIGHT, find_overlaps
 from mbla.contacts.report import Findings, both_fixed, build_report, held_blocks, misses_within, unsupported_parts
 from mbla.contacts.third_block import SeparatedPairs, drop_pairs_separated_by_third_block
 from mbla.deck.sections.contacts import ContactsSection
-from mbla.model.model import Joint, Model, PrescribedInterfaces
+from mbla.model.model import Model, PrescribedInterfaces
 from mbla.model.solids.polygons import polygons_from_loops, widths
-from mbla.process.sharing import shared
 
 # Interfaces of one pair of bodies are sorted along a direction that no building is likely to be square to, so that
 # rounding does not turn their order.
@@ -39,26 +38,14 @@ def find_contacts(model: Model, section: ContactsSection) -> Contacts:
     Tolerances are relative to block size, the cube root of the volume of the smaller block of a pair. Contacts between
     two bodies that are both fixed are counted in the report and left out: nothing depends on their forces. So are open
     interfaces, and those inside of the rigid bodies that glued ones make. Of joint laws only the names count,
-    and whether they can crush: surfaces that can are in pieces (:mod:`mbla.contacts.outlines.points`).
+    and whether they can crush: surfaces that can are in pieces (:mod:`mbla.contacts.outlines.points`). Loads count for
+    nothing.
 
     Raises
     ------
     ContactsRefused
         for too many pairs of blocks or points, and for pieces of a face that two bodies hold at odds
     """
-    laws = {name: Joint(name, 0.0, compressive_strength=_crushes(law)) for name, law in model.joints.items()}
-    bare = replace(model, title="", load_cases=(), notices=(), joints=laws, ties=model.ties.lines)
-    return _found(bare, section)
-
-
-def _crushes(law: Joint) -> float:
-    """1 for every compressive strength, inf where it is unlimited: how great it is does not change contacts."""
-    return float(np.inf if np.isinf(law.compressive_strength) else 1.0)
-
-
-@shared("contacts")
-def _found(model: Model, section: ContactsSection) -> Contacts:
-    """Contacts of a model without loads, its joint laws as ``find_contacts`` leaves them."""
     pairs = find_block_pairs(model.blocks, min(section.depth_allowed, SLIGHT))
     facets = build_facets(model.blocks)
     verdicts, separated = _verdicts(model, facets, section.tolerance, section.depth_allowed)

@@ -26,7 +26,7 @@ from mbla.solution.nonassociative.torsion import solve_with_torsion
 from mbla.solution.part_result import PartResult
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import WITH_VALUE, ProgramRecord, Status
-from mbla.solution.standing.standing import assess_dead_load, standing_without_equilibrium
+from mbla.solution.standing.standing import StressFreeStates, assess_dead_load, standing_without_equilibrium
 
 NO_MECHANISM_AT_DILATANCY = (
     "the solver finds no mechanism at the dilatancy angle either in which the live load does work"
@@ -41,18 +41,24 @@ SEARCH_BROKE_DOWN = Message(
 
 
 def solve_part(
-    program: Program, settings: SolverSettings, log: Log, interfaces: Interfaces = NONE, beside: Interfaces = NONE
+    program: Program,
+    settings: SolverSettings,
+    log: Log,
+    interfaces: Interfaces = NONE,
+    beside: Interfaces = NONE,
+    states: StressFreeStates | None = None,
 ) -> PartResult:
     """The part by the flow rule of the analysis, with everything that is requested in addition to its load factor.
 
     interfaces : of the model that have a law of their own in the path of elastic joints
     beside     : those in a second path, with torsion
+    states     : of stress-free assemblies that are known
 
     Raises
     ------
     numpy.linalg.LinAlgError where a system of equations on the way to the load factor is singular
     """
-    result = _by_flow_rule(program, settings, log, interfaces)
+    result = _by_flow_rule(program, settings, log, interfaces, states)
     if result.associative.certificate is not None:  # of what does not stand, only that moves
         fall = steepest_fall(program, settings, log)
         if fall is not None:
@@ -62,13 +68,15 @@ def solve_part(
     if result.sequence is not None and result.state is not None and result.status in WITH_VALUE:
         torsion = solve_with_torsion(program, result.associative, settings, log, beside)
         result = replace(result, torsion=torsion)
-    return _with_standing(result) if settings.standing else result
+    return _with_standing(result, states) if settings.standing else result
 
 
-def _by_flow_rule(program: Program, settings: SolverSettings, log: Log, interfaces: Interfaces) -> PartResult:
+def _by_flow_rule(
+    program: Program, settings: SolverSettings, log: Log, interfaces: Interfaces, states: StressFreeStates | None
+) -> PartResult:
     if not np.any(program.live_load):
-        return _unloaded_part(program, settings, log)
-    associative = solve_associative(program, settings, log, stress_free=settings.standing)
+        return _unloaded_part(program, settings, log, states)
+    associative = solve_associative(program, settings, log, stress_free=settings.standing, states=states)
     associative = solved_under_heavy_loads(program, associative, interfaces, settings, log)
     result = PartResult(program, associative, None, loaded=True)
     flow_rule = settings.analysis.flow_rule
@@ -83,12 +91,12 @@ def _by_flow_rule(program: Program, settings: SolverSettings, log: Log, interfac
     return replace(result, sequence=sequence, remarks=remarks)
 
 
-def _unloaded_part(program: Program, settings: SolverSettings, log: Log) -> PartResult:
+def _unloaded_part(program: Program, settings: SolverSettings, log: Log, states: StressFreeStates | None) -> PartResult:
     """A part without live load: whether it carries its dead load shows when that is taken away step by step."""
     result = AssociativeResult(Status.UNBOUNDED, None, None, "", ())
     if np.any(program.dead_load):
         relieved = replace(program, live_load=-program.dead_load)
-        result = solve_associative(relieved, settings, log, stress_free=settings.standing)
+        result = solve_associative(relieved, settings, log, stress_free=settings.standing, states=states)
     if result.status in WITH_VALUE:
         result = replace(
             result, status=Status.UNBOUNDED, state=None, reason="no live load acts on it", below=_at_zero(result)
@@ -133,9 +141,10 @@ def _with_least(result: PartResult, settings: SolverSettings, log: Log) -> PartR
     return replace(result, least=least, more=(*result.more, *records[known:]))
 
 
-def _with_standing(result: PartResult) -> PartResult:
+def _with_standing(result: PartResult, states: StressFreeStates | None) -> PartResult:
     program, associative = result.program, result.associative
     if associative.certificate is not None:
         return replace(result, standing=standing_without_equilibrium(program, associative.certificate))
     decided = associative.state is not None or associative.status is Status.UNBOUNDED
-    return replace(result, standing=assess_dead_load(program, True if decided else None, associative.stress_free))
+    found = assess_dead_load(program, True if decided else None, associative.stress_free, states)
+    return replace(result, standing=found)

@@ -32,7 +32,7 @@ from mbla.solution.reach import stays_within, within_reach
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import IterationRecord, Mechanics, PathByStiffness, ProgramRecord, Solution, Status
 from mbla.solution.standing.claim import as_it_stands
-from mbla.solution.standing.standing import worst_standing
+from mbla.solution.standing.standing import StressFreeStates, worst_standing
 
 FAILED = (
     Status.NO_EQUILIBRIUM,
@@ -99,15 +99,18 @@ class _Stage:
         return None if assembled is None else mechanics_of(*assembled, flow_rule)
 
 
-def solve(program: CaseProgram, settings: SolverSettings, log: Log | None = None) -> Solution:
+def solve(
+    program: CaseProgram, settings: SolverSettings, log: Log | None = None, states: StressFreeStates | None = None
+) -> Solution:
     """Load factor of one load case by the flow rule of the analysis, and what is requested in addition, on all blocks.
 
-    log : called once per iteration of a cone program, as it goes
+    log    : called once per iteration of a cone program, as it goes
+    states : of stress-free assemblies that are known from other load cases, to which those of this one are added
     """
     interfaces = NONE
     if program.crushing is not None or program.twisting is not None:
         interfaces = Interfaces(program.crushing, program.twisting)
-    solution = solve_parts(program.reduced, settings, log, interfaces, _with_torsion(program, settings))
+    solution = solve_parts(program.reduced, settings, log, interfaces, _with_torsion(program, settings), states)
     return solution_on_blocks(_of_interfaces(program, settings, solution), program.bodies)
 
 
@@ -154,16 +157,18 @@ def solve_parts(
     log: Log | None = None,
     interfaces: Interfaces = NONE,
     beside: Interfaces = NONE,
+    states: StressFreeStates | None = None,
 ) -> Solution:
     """The same of the contact points of rigid bodies: their parts one after the other, then the whole structure.
 
     log        : called once per iteration of a cone program, as it goes
     interfaces : of the model that have a law of their own in the path of elastic joints
     beside     : those in a second path, with torsion
+    states     : as for ``solve``
     """
     started, (iterations, record) = time.perf_counter(), recorded(log)
     stage = _Stage(reduced.parts, reduced.interface_of_point, settings, record, interfaces, beside)
-    results = [_result_of(program, settings, record, interfaces, beside) for program in reduced.parts]
+    results = [_result_of(program, settings, record, interfaces, beside, states) for program in reduced.parts]
     solution = _combined(stage, results)
     assessed = [result.standing for result in results if result.standing is not None]
     standing = worst_standing(assessed) if assessed else None
@@ -194,17 +199,22 @@ def recorded(log: Log | None) -> tuple[list[IterationRecord], Log]:
 
 
 def _result_of(
-    program: Program, settings: SolverSettings, log: Log, interfaces: Interfaces, beside: Interfaces
+    program: Program,
+    settings: SolverSettings,
+    log: Log,
+    interfaces: Interfaces,
+    beside: Interfaces,
+    states: StressFreeStates | None,
 ) -> PartResult:
     """What was found for one part; a system of equations that nobody expected to be singular is a reported failure."""
     try:
         easier = within_reach(program)
         if easier is not None:
-            result = solve_part(easier, settings, log, interfaces, beside)
-            states = [state for state in (result.associative.state, result.state) if state is not None]
-            if states and all(stays_within(program, state.forces) for state in states):
+            result = solve_part(easier, settings, log, interfaces, beside, states)
+            reached = [state for state in (result.associative.state, result.state) if state is not None]
+            if reached and all(stays_within(program, state.forces) for state in reached):
                 return replace(result, program=program)
-        return solve_part(program, settings, log, interfaces, beside)
+        return solve_part(program, settings, log, interfaces, beside, states)
     except np.linalg.LinAlgError as error:
         reason = BROKE_DOWN.format(str(error).lower())
         failure = AssociativeResult(Status.NUMERICAL_ERROR, None, None, reason, ())
