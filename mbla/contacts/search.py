@@ -7,18 +7,17 @@ from dataclasses import replace
 import numpy as np
 import shapely
 
-from mbla.arrays import BoolArray, FloatArray, IntArray, row_of_item, starts
+from mbla.arrays import BoolArray, FloatArray, IntArray, row_of_item
 from mbla.contacts.broad_phase import find_block_pairs
-from mbla.contacts.contacts import ContactReport, Contacts
+from mbla.contacts.contacts import Contacts
 from mbla.contacts.facets import Facets, build_facets
 from mbla.contacts.glue import Glue, glue_blocks
 from mbla.contacts.joints import joints_of_interfaces
 from mbla.contacts.narrow_phase import Patches, Verdicts, find_patches, judge
 from mbla.contacts.notices import outline_notices, report_notices
 from mbla.contacts.outlines.corners import areas_and_centroids, needed_corners
-from mbla.contacts.outlines.overlay import Overlays, frames_from_normals
+from mbla.contacts.outlines.overlay import Overlays, frames_from_normals, in_space
 from mbla.contacts.outlines.points import in_pieces, interface_points
-from mbla.contacts.outlines.refine import InterfacePoints
 from mbla.contacts.overlapping_supports import without_overlapping_supports
 from mbla.contacts.overlaps import SLIGHT, find_overlaps
 from mbla.contacts.report import Findings, both_fixed, build_report, held_blocks, misses_within, unsupported_parts
@@ -84,7 +83,9 @@ def find_contacts(model: Model, section: ContactsSection) -> Contacts:
     )
     report = build_report(model, findings)
     remarks = (*notices, *twice, *simpler, *left_alone, *report_notices(model, section, report, findings))
-    return _contacts(kept, areas, found, (law_of, names), replace(report, notices=remarks), glue.solid_of_block)
+    report = replace(report, notices=remarks)
+    gaps = kept.gaps * kept.overlays.sizes
+    return Contacts.on(kept.overlays, areas, found, (law_of, names), gaps, report, glue.solid_of_block)
 
 
 def _verdicts(model: Model, facets: Facets, tolerance: float, overlap: float) -> tuple[Verdicts, SeparatedPairs]:
@@ -101,38 +102,6 @@ def _verdicts(model: Model, facets: Facets, tolerance: float, overlap: float) ->
     prescribed = patches_of_prescribed(model, model.interfaces)
     nothing = prescribed.take(np.empty(0, dtype=np.int64))
     return Verdicts(prescribed, nothing, nothing), SeparatedPairs(nothing, np.empty(0, dtype=np.int64))
-
-
-def _contacts(
-    kept: Patches,
-    areas: tuple[FloatArray, FloatArray],
-    found: InterfacePoints,
-    joints: tuple[IntArray, tuple[str, ...]],
-    report: ContactReport,
-    solid_of_block: IntArray | None,
-) -> Contacts:
-    """The interfaces kept, in space and in the deck's unit of length.
-
-    areas  : area and centroid of each, relative to block size
-    joints : row of each in the names of laws, and these names
-    """
-    size, interface = kept.overlays.sizes, found.polygon
-    return Contacts(
-        bodies=kept.overlays.bodies,
-        normals=kept.overlays.frames[:, 0],
-        areas=areas[0] * size**2,
-        centroids=_in_space(kept, np.arange(len(kept)), areas[1]),
-        gaps=kept.gaps * size,
-        joints=joints[0],
-        joint_names=joints[1],
-        point_start=starts(np.bincount(interface, minlength=len(kept)).astype(np.int64)),
-        outline=found.outline,
-        points=_in_space(kept, interface, found.points),
-        frames=kept.overlays.frames[interface],
-        point_areas=found.areas * size[interface] ** 2,
-        report=report,
-        solid_of_block=solid_of_block,
-    )
 
 
 def _inside(model: Model, glue: Glue, bodies: IntArray) -> BoolArray:
@@ -154,15 +123,8 @@ def _order(patches: Patches, chosen: BoolArray) -> IntArray:
 
 def _centroids(patches: Patches) -> FloatArray:
     """Of common surfaces, (n, 3) m."""
-    return _in_space(patches, np.arange(len(patches)), shapely.get_coordinates(shapely.centroid(patches.polygons)))
-
-
-def _in_space(patches: Patches, row: IntArray, points: FloatArray) -> FloatArray:
-    """Local points (n, 2) of the patches ``row`` in space, (n, 3) m."""
-    overlays = patches.overlays
-    offsets = np.einsum("ka,kai->ki", points, overlays.frames[row, 1:])
-    result: FloatArray = overlays.origins[row] + overlays.sizes[row, None] * offsets
-    return result
+    centres = shapely.get_coordinates(shapely.centroid(patches.polygons))
+    return in_space(patches.overlays, np.arange(len(patches)), centres)
 
 
 def patches_of_prescribed(model: Model, prescribed: PrescribedInterfaces) -> Patches:
