@@ -6,6 +6,7 @@ a ``start`` array of n + 1 offsets: the items of row i are ``flat[start[i]:start
 
 from __future__ import annotations
 
+from dataclasses import fields, is_dataclass
 from importlib import import_module
 from typing import Any, TypeAlias
 
@@ -67,3 +68,20 @@ def distinct(values: IntArray) -> IntArray:
     first = np.ones(len(ordered), dtype=bool)
     np.not_equal(ordered[1:], ordered[:-1], out=first[1:])
     return ordered[first]
+
+
+def alike(one: Any, other: Any) -> bool:
+    """Whether two records are the same in every number of their arrays, sparse matrices and records; nan never is."""
+    if one is other:
+        return True
+    if type(one) is not type(other):
+        return False
+    if isinstance(one, np.ndarray):
+        return one.dtype == other.dtype and np.array_equal(one, other)
+    if hasattr(one, "indptr"):
+        names: tuple[str, ...] = ("shape", "indptr", "indices", "data")
+    elif is_dataclass(one):
+        names = tuple(each.name for each in fields(one))
+    else:
+        return bool(one == other)
+    return all(alike(getattr(one, name), getattr(other, name)) for name in names)

@@ -14,7 +14,6 @@ from mbla.errors import UsageError
 from mbla.model import build_model
 from mbla.model.model import LoadCase, select_cases
 from mbla.process.run_options import RunOptions as RunOptions
-from mbla.process.sharing import Memory, sharing
 from mbla.process.stopwatch import Stopwatch, timing
 from mbla.results.assessment.assessment import with_remarks
 from mbla.results.collapse.ties import brittle_remarks
@@ -29,6 +28,7 @@ from mbla.solution.cone_solvers.cone_solution import Log
 from mbla.solution.sequence.sequence import answered
 from mbla.solution.settings import SolverSettings, settings_for, solver_settings
 from mbla.solution.solution import IterationRecord, Status
+from mbla.solution.standing.standing import StressFreeStates
 
 Progress = Callable[[str, IterationRecord], None]
 T = TypeVar("T")
@@ -90,10 +90,18 @@ def run_and_write(deck: Deck, options: RunOptions, progress: Progress | None, st
 
 
 def solve_deck(
-    deck: Deck, options: RunOptions, status_file: StatusFile, progress: Progress | None, started: float
+    deck: Deck,
+    options: RunOptions,
+    status_file: StatusFile,
+    progress: Progress | None,
+    started: float,
+    states: StressFreeStates | None = None,
 ) -> Results:
-    """The stages from model to verification for every load case asked for; writes nothing but the status file."""
-    *_, results = solved_case_by_case(deck, options, status_file, progress, started)
+    """The stages from model to verification for every load case asked for; writes nothing but the status file.
+
+    states : of stress-free assemblies that are known from decks before, to which those of this one are added
+    """
+    *_, results = solved_case_by_case(deck, options, status_file, progress, started, states=states)
     return results
 
 
@@ -104,6 +112,7 @@ def solved_case_by_case(
     progress: Progress | None,
     started: float,
     at_work: Tell[Results] = unheard,
+    states: StressFreeStates | None = None,
 ) -> Iterator[Results]:
     """As ``solve_deck``: the results so far, before any load case is solved and after each of them.
 
@@ -124,13 +133,12 @@ def solved_case_by_case(
         results = results_before(deck, assembly, settings, {"read": read - started, "contacts": found - read})
         results = replace(results, not_done=tuple(case.name for case in load_cases))
         yield results
-        memory = Memory()
+        states = StressFreeStates() if states is None else states
         for load_case in load_cases:
             tell = _teller(at_work, results, found, stopwatch)
             travels = load_case.travel is not None  # which of its positions is pushed is known when all are solved
             case = replace(load_case, pushover=None) if travels else load_case
-            with sharing(memory):
-                solved = solve_case(deck, assembly, case, settings, status_file, progress, tell)
+            solved = solve_case(deck, assembly, case, settings, status_file, progress, tell, states)
             results = with_case(results, solved, time.perf_counter() - found, stopwatch)
             left = {each.deck_name for each in load_cases if each.name in results.not_done}
             chosen = None if load_case.deck_name in left else position_to_push(load_case, assembly.model, results.cases)
@@ -164,13 +172,15 @@ def solve_case(
     status_file: StatusFile,
     progress: Progress | None,
     tell: Tell[CaseResult] = unheard,
+    states: StressFreeStates | None = None,
 ) -> CaseResult:
     """One load case solved and verified, with what is asked besides.
 
-    tell : told how to make the load case as far as it has come, where it is pushed on
+    tell   : told how to make the load case as far as it has come, where it is pushed on
+    states : of stress-free assemblies that are known from load cases before
     """
     log = _log_of(load_case, status_file, progress)
-    answer = answered(assembly, load_case, settings, log)
+    answer = answered(assembly, load_case, settings, log, states)
     status_file.remark(f"{load_case.name}: {answer.status}")
     case = CaseResult(answer.load_case, answer.solution, answer.checks, answer.status)
     if load_case.pushover is not None:

@@ -5,7 +5,8 @@ Near means within the reach of a pair: ten times its tolerance, so that pairs wh
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from typing import TypeAlias
 
 import numpy as np
 
@@ -59,35 +60,44 @@ def block_boxes(blocks: Blocks) -> tuple[FloatArray, FloatArray]:
     return np.minimum.reduceat(blocks.vertices, first), np.maximum.reduceat(blocks.vertices, first)
 
 
-def find_facet_pairs(blocks: Blocks, facets: Facets, tolerance: float) -> IntArray:
-    """Facets of two blocks that are opposite (coarsely) and within reach of each other, (n, 2), sorted."""
-    sizes = blocks.sizes[facets.blocks]
-    margin = (NEAR_MISS * tolerance / 2 * sizes)[:, None]
-    lower, upper = facets.lower - margin, facets.upper + margin
-    a, b = meeting_boxes(lower, upper, lower, upper, np.inf)
-    for test in (_of_two_blocks, _boxes_meet, _planes_near):
-        keep = test(facets, a, b, NEAR_MISS * tolerance * np.minimum(sizes[a], sizes[b]))
-        a, b = a[keep], b[keep]
-    return np.stack([a, b], axis=1)
+Faces: TypeAlias = Callable[[IntArray, IntArray, FloatArray, FloatArray], BoolArray]
+"""Whether facets may be in contact, (n,): bodies and facets, (n, 2) each, −1 for ground planes, and outward normals of
+both, (n, 3) each."""
 
 
-def find_surface_pairs(
-    blocks: Blocks, facets: Facets, sheets: Facets, grounds: Sequence[Ground], tolerance: float
-) -> IntArray:
-    """Ground surfaces that end somewhere and facets of what they may carry, opposite and within reach, (n, 2).
+def are_opposite(bodies: IntArray, facets: IntArray, normals_a: FloatArray, normals_b: FloatArray) -> BoolArray:
+    """Whether outward normals face each other, coarsely."""
+    facing: BoolArray = np.einsum("ki,ki->k", normals_a, normals_b) < -_COARSE_ANGLE
+    return facing
 
-    sheets : the facets, and these surfaces behind them, by whose rows the pairs are
+
+def find_facet_pairs(blocks: Blocks, sheets: Facets, grounds: Sequence[Ground], reach: float, faces: Faces) -> IntArray:
+    """Facets of two blocks, then ground surfaces and facets of what they may carry, that face each other within reach.
+
+    sheets : facets of the blocks, and behind them ground surfaces that end somewhere
+    reach  : relative to the size of the smaller block
+
+    Returns (n, 2) rows of these, those of either kind sorted.
     """
-    sizes = blocks.sizes[facets.blocks]
-    margin = (NEAR_MISS * tolerance * sizes)[:, None]
-    first = len(facets)
-    a, b = meeting_boxes(sheets.lower[first:], sheets.upper[first:], facets.lower - margin, facets.upper + margin)
-    a += first
-    keep = opposite(sheets.normals[a], facets.normals[b])
-    keep &= may_carry(grounds, sheets.blocks[a] - len(blocks), facets.blocks[b])
-    a, b = a[keep], b[keep]
-    near = _planes_near(sheets, a, b, NEAR_MISS * tolerance * sizes[b])
-    return np.stack([a[near], b[near]], axis=1)
+    first = int(np.searchsorted(sheets.blocks, len(blocks)))
+    sizes = np.append(blocks.sizes, np.full(len(grounds), np.inf))[sheets.blocks]
+    margin = (reach / 2 * sizes[:first])[:, None]
+    lower, upper = sheets.lower[:first], sheets.upper[:first]
+    a, b = meeting_boxes(lower - margin, upper + margin, lower - margin, upper + margin, np.inf)
+    other = sheets.blocks[a] != sheets.blocks[b]
+    a, b = a[other], b[other]
+    if len(sheets) > first:
+        surfaces = sheets.lower[first:], sheets.upper[first:]
+        surface, on = meeting_boxes(*surfaces, lower - 2 * margin, upper + 2 * margin)
+        surface += first
+        carried = may_carry(grounds, sheets.blocks[surface] - len(blocks), sheets.blocks[on])
+        a, b = np.append(a, surface[carried]), np.append(b, on[carried])
+    pairs = np.stack([a, b], axis=1)
+    pairs = pairs[faces(sheets.blocks[pairs], pairs, sheets.normals[a], sheets.normals[b])]
+    for test in (_boxes_meet, _planes_near):
+        a, b = pairs.T
+        pairs = pairs[test(sheets, a, b, reach * np.minimum(sizes[a], sizes[b]))]
+    return pairs
 
 
 def may_carry(grounds: Sequence[Ground], ground: IntArray, block: IntArray) -> BoolArray:
@@ -98,16 +108,6 @@ def may_carry(grounds: Sequence[Ground], ground: IntArray, block: IntArray) -> B
             rows = ground == number
             allowed[rows] = np.isin(block[rows], chosen)
     return allowed
-
-
-def opposite(normals_a: FloatArray, normals_b: FloatArray) -> BoolArray:
-    """True (n,) where two outward normals (n, 3) face each other, coarsely."""
-    facing: BoolArray = np.einsum("ki,ki->k", normals_a, normals_b) < -_COARSE_ANGLE
-    return facing
-
-
-def _of_two_blocks(facets: Facets, a: IntArray, b: IntArray, reach: FloatArray) -> BoolArray:
-    return np.asarray((facets.blocks[a] != facets.blocks[b]) & opposite(facets.normals[a], facets.normals[b]))
 
 
 def _boxes_meet(facets: Facets, a: IntArray, b: IntArray, reach: FloatArray) -> BoolArray:

@@ -7,7 +7,9 @@ from functools import cached_property
 
 import numpy as np
 
-from mbla.arrays import BoolArray, FloatArray, IntArray, row_of_item
+from mbla.arrays import BoolArray, FloatArray, IntArray, row_of_item, starts
+from mbla.contacts.outlines.overlay import Overlays, in_space
+from mbla.contacts.outlines.refine import InterfacePoints
 from mbla.deck.text.tree import KeyPath
 from mbla.errors import Notice, Refusal
 
@@ -62,6 +64,41 @@ class Contacts:
 
     def __len__(self) -> int:
         return len(self.areas)
+
+    @staticmethod
+    def on(
+        overlays: Overlays,
+        areas: tuple[FloatArray, FloatArray],
+        found: InterfacePoints,
+        joints: tuple[IntArray, tuple[str, ...]],
+        gaps: FloatArray,
+        report: ContactReport,
+        solid_of_block: IntArray | None,
+    ) -> Contacts:
+        """The interfaces of overlays, in space and in the deck's unit of length.
+
+        areas  : area and centroid of each, relative to block size
+        found  : their points, relative to block size
+        joints : row of each in the names of laws, and these names
+        gaps   : (n,) m
+        """
+        size, interface = overlays.sizes, found.polygon
+        return Contacts(
+            bodies=overlays.bodies,
+            normals=overlays.frames[:, 0],
+            areas=areas[0] * size**2,
+            centroids=in_space(overlays, np.arange(len(overlays)), areas[1]),
+            gaps=gaps,
+            joints=joints[0],
+            joint_names=joints[1],
+            point_start=starts(np.bincount(interface, minlength=len(overlays)).astype(np.int64)),
+            outline=found.outline,
+            points=in_space(overlays, interface, found.points),
+            frames=overlays.frames[interface],
+            point_areas=found.areas * size[interface] ** 2,
+            report=report,
+            solid_of_block=solid_of_block,
+        )
 
     @property
     def by_joint(self) -> dict[str, tuple[int, float]]:

@@ -24,7 +24,7 @@ from mbla.contacts.outlines.overlay import Overlays
 from mbla.deck.sections.contacts import AboutNormal, ContactOverride, ContactsSection
 from mbla.deck.sections.materials import BUILT_IN, GLUED, OPEN
 from mbla.errors import Notice
-from mbla.model.model import Model
+from mbla.model.model import Model, PrescribedInterfaces
 from mbla.model.selectors import Roster, bodies_selected
 from mbla.model.solids.plane import unit
 
@@ -98,6 +98,22 @@ def joints_of_interfaces(
             text = f"contacts.overrides[{number}], with joint {override.joint}, fits no contact and has no effect"
             notices.append(Notice("warning", "override-without-contact", text))
     return Laws(rows, names), notices
+
+
+def laws_of_nearest(given: PrescribedInterfaces | None, bodies: IntArray, centroids: FloatArray) -> list[str] | None:
+    """Law that a table gives for the interface of the same two bodies, (n, 2), nearest to each place, (n, 3) m.
+
+    Empty where it gives none, and for bodies that it has no interface of; None without a table.
+    """
+    if given is None:
+        return None
+    places = np.add.reduceat(given.corners, given.corner_start[:-1]) / np.diff(given.corner_start)[:, None]
+    laws = []
+    for own, place in zip(bodies, centroids, strict=True):
+        rows = np.flatnonzero((given.bodies == own).all(axis=1))
+        away = np.linalg.norm(places[rows] - place, axis=1)
+        laws.append(given.joints[rows[away.argmin()]] if len(rows) else "")
+    return laws
 
 
 def _oriented(normals: FloatArray, override: ContactOverride) -> BoolArray:

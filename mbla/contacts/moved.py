@@ -22,20 +22,18 @@ from dataclasses import dataclass, replace
 import numpy as np
 import shapely
 
-from mbla.arrays import BoolArray, FloatArray, IntArray, starts
-from mbla.contacts.broad_phase import may_carry
-from mbla.contacts.contact_planes import along_contact_normals, outlines
+from mbla.arrays import BoolArray, FloatArray, IntArray
+from mbla.contacts.common_surfaces import Search, find_common_surfaces
 from mbla.contacts.contacts import Contacts
-from mbla.contacts.facets import Facets, build_facets, with_surfaces
-from mbla.contacts.joints import joints_of_interfaces
+from mbla.contacts.facets import Facets, build_facets
+from mbla.contacts.joints import joints_of_interfaces, laws_of_nearest
 from mbla.contacts.outlines.corners import areas_and_centroids, needed_corners
-from mbla.contacts.outlines.overlay import Overlays, Planes, build_overlays, concatenate, gap_at
+from mbla.contacts.outlines.overlay import Overlays, gap_at, in_space
 from mbla.contacts.outlines.points import interface_points
 from mbla.contacts.report import both_fixed
 from mbla.deck.sections.contacts import ContactsSection
 from mbla.model.model import Model
 from mbla.model.pose import Pose, moved_model
-from mbla.model.solids.plane import meeting_boxes
 from mbla.model.solids.polygons import Polygons, connected_parts, widths
 
 FACING, HINGED = (float(np.cos(np.radians(angle))) for angle in (50.0, 85.0))
@@ -109,37 +107,20 @@ class MovedSearch:
             overlays, parts = overlays.take(stands), parts[stands]
         order = np.lexsort((overlays.facets[:, 1], overlays.facets[:, 0], overlays.bodies[:, 1], overlays.bodies[:, 0]))
         overlays, parts = overlays.take(order), parts[order]
-        laws, _ = joints_of_interfaces(self.model, self.section, *self._as_built(overlays, parts, pose))
+        built, centroids = self._as_built(overlays, parts, pose)
+        given = laws_of_nearest(self.model.interfaces, overlays.bodies, centroids)
+        laws, _ = joints_of_interfaces(self.model, self.section, built, centroids, given)
         closed = ~laws.open
         overlays, parts = overlays.take(closed), parts[closed]
         joints = laws.in_use(np.flatnonzero(closed))
         corners = needed_corners(parts, NARROW)
-        areas, centroids = areas_and_centroids(corners)
-        found, _ = interface_points(corners, centroids, overlays.sizes, self.section.points)
+        areas = areas_and_centroids(corners)
+        found, _ = interface_points(corners, areas[1], overlays.sizes, self.section.points)
         of_point, size = found.polygon, overlays.sizes
-
-        def in_space(rows: IntArray, places: FloatArray) -> FloatArray:
-            offsets = np.einsum("ka,kai->ki", places, overlays.frames[rows, 1:])
-            return np.asarray(overlays.origins[rows] + size[rows, None] * offsets)
-
         ignored = self._gaps_as_built(overlays)
         gaps = gap_at(overlays, of_point, found.points) * size[of_point] - ignored[of_point]
-        contacts = Contacts(
-            bodies=overlays.bodies,
-            normals=overlays.frames[:, 0],
-            areas=areas * size**2,
-            centroids=in_space(np.arange(len(size)), centroids),
-            gaps=np.zeros(len(size)),
-            joints=joints[0],
-            joint_names=joints[1],
-            point_start=starts(np.bincount(of_point, minlength=len(size)).astype(np.int64)),
-            outline=found.outline,
-            points=in_space(of_point, found.points),
-            frames=overlays.frames[of_point],
-            point_areas=found.areas * size[of_point] ** 2,
-            report=self.contacts.report,
-            solid_of_block=self.contacts.solid_of_block,
-        )
+        of_model = self.contacts.report, self.contacts.solid_of_block
+        contacts = Contacts.on(overlays, areas, found, joints, np.zeros(len(size)), *of_model)
         overlap = max(-float((gaps / size[of_point]).min(initial=0.0)), 0.0)
         return MovedContacts(contacts, gaps, overlays.facets, facets, ignored, overlap)
 
@@ -160,9 +141,10 @@ class MovedSearch:
 
     def _near(self, model: Model, facets: Facets, opened: float, narrow: float) -> tuple[Overlays, Polygons]:
         """Common surfaces within reach, those of facets that are not in contact as built wider than some share."""
-        overlays, shapes = self._between(model, facets, opened)
+        search = Search(REACH + opened, self._face_each_other, moved=True)
+        overlays, shapes, _ = find_common_surfaces(model.blocks, facets, model.grounds, search)
         parts, row = connected_parts(shapes)
-        overlays = overlays.take(row)
+        overlays = replace(overlays, facets=self._named(overlays.facets)).take(row)
         least, wide = _extreme_gaps(overlays, parts)[0], widths(parts)
         pair = self._pair(overlays.bodies, overlays.facets)
         built = np.isin(pair, self._joined)
@@ -204,65 +186,22 @@ class MovedSearch:
             upper=np.maximum.reduceat(corners, self._first),
         )
 
-    def _between(self, model: Model, facets: Facets, opened: float) -> tuple[Overlays, Polygons]:
-        """Facets that face each other within reach, and what they share, along the normal of the contact."""
-        sizes = model.blocks.sizes[facets.blocks]
-        margin = ((REACH + opened) / 2 * sizes)[:, None]
-        a, b = meeting_boxes(facets.lower - margin, facets.upper + margin, facets.lower - margin, facets.upper + margin)
-        other = facets.blocks[a] < facets.blocks[b]
-        a, b = a[other], b[other]
-        moving = len(facets)
-        sheets = with_surfaces(facets, model.grounds, len(model.blocks))
-        if len(sheets) > moving:
-            low, high = facets.lower - 2 * margin, facets.upper + 2 * margin
-            surface, on = meeting_boxes(sheets.lower[moving:], sheets.upper[moving:], low, high)
-            carried = may_carry(model.grounds, sheets.blocks[surface + moving] - len(model.blocks), on)
-            a, b = np.append(a, surface[carried] + moving), np.append(b, on[carried])
-        bodies, pairs = np.column_stack([sheets.blocks[a], sheets.blocks[b]]), np.column_stack([a, b])
-        named = np.where(pairs < moving, pairs, -1)
-        facing = self._face_each_other(bodies, named, sheets.normals[a], sheets.normals[b])
-        between, common = along_contact_normals(sheets, bodies[facing], pairs[facing], model.blocks.sizes)
-        between = replace(between, facets=named[facing])
-        shapes = [common]
-        overlays = [between]
-        for index, ground in enumerate(model.grounds):
-            if ground.outline is not None:
-                continue
-            corner = np.where(ground.normal > 0, facets.lower, facets.upper)
-            reach = (corner - ground.point) @ ground.normal
-            normals = np.broadcast_to(ground.normal, (len(facets), 3))
-            every = np.arange(len(facets))
-            bodies = np.full((len(facets), 1), len(model.blocks) + index)
-            pairs = np.column_stack([np.full(len(facets), -1), every])
-            chosen = (reach < (REACH + opened) * sizes) & self._face_each_other(bodies, pairs, normals, facets.normals)
-            if ground.blocks is not None:
-                chosen &= np.isin(facets.blocks, ground.blocks)
-            rows = np.flatnonzero(chosen)
-            on_ground = build_overlays(
-                np.column_stack([np.full(len(rows), len(model.blocks) + index), facets.blocks[rows]]),
-                np.column_stack([np.full(len(rows), -1), rows]),
-                Planes(np.broadcast_to(ground.point, (len(rows), 3)), normals[rows]),
-                Planes(facets.origins[rows], facets.normals[rows]),
-                facets.origins[rows],
-                sizes[rows],
-                1.0,
-            )
-            overlays.append(on_ground)
-            shapes.append(outlines(on_ground, facets, 1))
-        return concatenate(overlays), np.concatenate(shapes)
-
     def _face_each_other(self, bodies: IntArray, pairs: IntArray, first: FloatArray, second: FloatArray) -> BoolArray:
         """Whether facets, (n, 2), with these normals may be in contact, (n,)."""
         against = -np.einsum("ki,ki->k", first, second)
         hinges = (against > HINGED) & (against <= FACING)
-        hinges[hinges] = np.isin(self._pair(bodies[hinges], pairs[hinges]), self._joined)
+        hinges[hinges] = np.isin(self._pair(bodies[hinges], self._named(pairs[hinges])), self._joined)
         return np.asarray((against > FACING) | hinges)
+
+    def _named(self, facets: IntArray) -> IntArray:
+        """Facets of blocks by their numbers, −1 for ground surfaces too."""
+        return np.where(facets < len(self.facets), facets, -1)
 
     def _as_built(self, overlays: Overlays, parts: Polygons, pose: Pose) -> tuple[Overlays, FloatArray]:
         """Overlays and centroids with body b where it was built: joint laws go by orientation and place there."""
         block = overlays.bodies[:, 1]
         middle = shapely.get_coordinates(shapely.centroid(parts))
-        centroids = overlays.origins + overlays.sizes[:, None] * np.einsum("ka,kai->ki", middle, overlays.frames[:, 1:])
+        centroids = in_space(overlays, np.arange(len(overlays)), middle)
         back, blocks = pose.rotation[block], self.model.blocks
         arms = np.einsum("kij,ki->kj", back, centroids - (blocks.centroids + pose.shift)[block])
         frames = np.einsum("kij,kai->kaj", back, overlays.frames)

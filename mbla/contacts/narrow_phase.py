@@ -23,13 +23,13 @@ import numpy as np
 import shapely
 
 from mbla.arrays import FloatArray, IntArray
-from mbla.contacts.broad_phase import NEAR_MISS, find_facet_pairs, find_surface_pairs, opposite
-from mbla.contacts.contact_planes import outlines
-from mbla.contacts.facets import Facets, with_surfaces
-from mbla.contacts.outlines.overlay import Overlays, Planes, Rows, build_overlays, concatenate, gap_at, local_maps
+from mbla.contacts.broad_phase import NEAR_MISS, are_opposite
+from mbla.contacts.common_surfaces import Search, find_common_surfaces
+from mbla.contacts.facets import Facets
+from mbla.contacts.outlines.overlay import Overlays, Rows, gap_at, local_maps
 from mbla.model.model import Ground
 from mbla.model.solids.blocks import Blocks
-from mbla.model.solids.polygons import Polygons, boxes_overlap, connected_parts, intersect, map_polygons, widths
+from mbla.model.solids.polygons import Polygons, connected_parts, intersect, map_polygons, widths
 
 _EDGE = 1e-3
 _NARROW_FACET = 0.5
@@ -77,23 +77,10 @@ def find_patches(
     overlap : greatest depth that counts as touching, relative to block size
     """
     tolerance = max(tolerance, overlap / NEAR_MISS)
-    sheets = with_surfaces(facets, grounds, len(blocks))
-    pairs = find_facet_pairs(blocks, facets, tolerance)
-    if len(sheets) > len(facets):
-        pairs = np.vstack([pairs, find_surface_pairs(blocks, facets, sheets, grounds, tolerance)])
-    between, first, second = _between(blocks, sheets, pairs)
-    keep = np.flatnonzero(boxes_overlap(first, second, _EDGE * tolerance))
-    between = between.take(keep)
-    convex = sheets.convex[between.facets[:, 0]] & sheets.convex[between.facets[:, 1]]
-    shapes = [intersect(first[keep], second[keep], convex)]
-    overlays = [between]
-    for index, ground in enumerate(grounds):
-        if ground.outline is None:
-            on_ground = _on_ground(blocks, facets, ground, len(blocks) + index, tolerance)
-            overlays.append(on_ground)
-            shapes.append(outlines(on_ground, facets, 1))
-    parts, row = connected_parts(np.concatenate(shapes))
-    found = _measured(concatenate(overlays).take(row), parts, shapely.area(sheets.polygons))
+    search = Search(NEAR_MISS * tolerance, are_opposite, _EDGE * tolerance)
+    overlays, shapes, sheets = find_common_surfaces(blocks, facets, grounds, search)
+    parts, row = connected_parts(shapes)
+    found = _measured(overlays.take(row), parts, shapely.area(sheets.polygons))
     number = found.overlays.facets
     return replace(found, overlays=replace(found.overlays, facets=np.where(number < len(facets), number, -1)))
 
@@ -115,42 +102,6 @@ def judge(patches: Patches, tolerance: float, reach: float | None = None, overla
         contacts=patches.take(close & wide),
         slivers=patches.take(close & ~wide & visible),
         near_misses=patches.take(near & wide),
-    )
-
-
-def _between(blocks: Blocks, facets: Facets, pairs: IntArray) -> tuple[Overlays, Polygons, Polygons]:
-    """Overlays of pairs of facets, (n, 2), those of ground surfaces among them, and both outlines of each."""
-    a, b = pairs.T
-    sizes = np.append(blocks.sizes, np.full(max(int(facets.blocks.max(initial=0)) + 1 - len(blocks), 0), np.inf))
-    # Amid what the two bounding boxes share: near the common surface, however large one of the facets is.
-    shared = (np.maximum(facets.lower[a], facets.lower[b]) + np.minimum(facets.upper[a], facets.upper[b])) / 2
-    overlays = build_overlays(
-        bodies=facets.blocks[pairs],
-        facets=pairs,
-        a=Planes(facets.origins[a], facets.normals[a]),
-        b=Planes(facets.origins[b], facets.normals[b]),
-        near=shared,
-        sizes=sizes[facets.blocks[pairs]].min(axis=1),
-    )
-    return overlays, outlines(overlays, facets, 0), outlines(overlays, facets, 1)
-
-
-def _on_ground(blocks: Blocks, facets: Facets, ground: Ground, body: int, tolerance: float) -> Overlays:
-    """Facets that face a ground plane and come within reach of it somewhere."""
-    normals = np.broadcast_to(ground.normal, (len(facets), 3))
-    sizes = blocks.sizes[facets.blocks]
-    height = np.abs((facets.origins - ground.point) @ ground.normal)
-    cosine = facets.normals @ ground.normal
-    near = height <= NEAR_MISS * tolerance * sizes + np.sqrt(np.maximum(1 - cosine**2, 0.0)) * facets.radii
-    carried = np.ones(len(facets), dtype=bool) if ground.blocks is None else np.isin(facets.blocks, ground.blocks)
-    chosen = np.flatnonzero(near & carried & opposite(normals, facets.normals))
-    return build_overlays(
-        bodies=np.stack([np.full(len(chosen), body), facets.blocks[chosen]], axis=1),
-        facets=np.stack([np.full(len(chosen), -1), chosen], axis=1),
-        a=Planes(np.broadcast_to(ground.point, (len(chosen), 3)), normals[chosen]),
-        b=Planes(facets.origins[chosen], facets.normals[chosen]),
-        near=facets.origins[chosen],
-        sizes=sizes[chosen],
     )
 
 

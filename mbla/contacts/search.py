@@ -7,26 +7,24 @@ from dataclasses import replace
 import numpy as np
 import shapely
 
-from mbla.arrays import BoolArray, FloatArray, IntArray, row_of_item, starts
+from mbla.arrays import BoolArray, FloatArray, IntArray, row_of_item
 from mbla.contacts.broad_phase import find_block_pairs
-from mbla.contacts.contacts import ContactReport, Contacts
+from mbla.contacts.contacts import Contacts
 from mbla.contacts.facets import Facets, build_facets
 from mbla.contacts.glue import Glue, glue_blocks
 from mbla.contacts.joints import joints_of_interfaces
 from mbla.contacts.narrow_phase import Patches, Verdicts, find_patches, judge
 from mbla.contacts.notices import outline_notices, report_notices
 from mbla.contacts.outlines.corners import areas_and_centroids, needed_corners
-from mbla.contacts.outlines.overlay import Overlays, frames_from_normals
+from mbla.contacts.outlines.overlay import Overlays, frames_from_normals, in_space
 from mbla.contacts.outlines.points import in_pieces, interface_points
-from mbla.contacts.outlines.refine import InterfacePoints
 from mbla.contacts.overlapping_supports import without_overlapping_supports
 from mbla.contacts.overlaps import SLIGHT, find_overlaps
 from mbla.contacts.report import Findings, both_fixed, build_report, held_blocks, misses_within, unsupported_parts
 from mbla.contacts.third_block import SeparatedPairs, drop_pairs_separated_by_third_block
 from mbla.deck.sections.contacts import ContactsSection
-from mbla.model.model import Joint, Model, PrescribedInterfaces
+from mbla.model.model import Model, PrescribedInterfaces
 from mbla.model.solids.polygons import polygons_from_loops, widths
-from mbla.process.sharing import shared
 
 # Interfaces of one pair of bodies are sorted along a direction that no building is likely to be square to, so that
 # rounding does not turn their order.
@@ -39,26 +37,14 @@ def find_contacts(model: Model, section: ContactsSection) -> Contacts:
     Tolerances are relative to block size, the cube root of the volume of the smaller block of a pair. Contacts between
     two bodies that are both fixed are counted in the report and left out: nothing depends on their forces. So are open
     interfaces, and those inside of the rigid bodies that glued ones make. Of joint laws only the names count,
-    and whether they can crush: surfaces that can are in pieces (:mod:`mbla.contacts.outlines.points`).
+    and whether they can crush: surfaces that can are in pieces (:mod:`mbla.contacts.outlines.points`). Loads count for
+    nothing.
 
     Raises
     ------
     ContactsRefused
         for too many pairs of blocks or points, and for pieces of a face that two bodies hold at odds
     """
-    laws = {name: Joint(name, 0.0, compressive_strength=_crushes(law)) for name, law in model.joints.items()}
-    bare = replace(model, title="", load_cases=(), notices=(), joints=laws, ties=model.ties.lines)
-    return _found(bare, section)
-
-
-def _crushes(law: Joint) -> float:
-    """1 for every compressive strength, inf where it is unlimited: how great it is does not change contacts."""
-    return float(np.inf if np.isinf(law.compressive_strength) else 1.0)
-
-
-@shared("contacts")
-def _found(model: Model, section: ContactsSection) -> Contacts:
-    """Contacts of a model without loads, its joint laws as ``find_contacts`` leaves them."""
     pairs = find_block_pairs(model.blocks, min(section.depth_allowed, SLIGHT))
     facets = build_facets(model.blocks)
     verdicts, separated = _verdicts(model, facets, section.tolerance, section.depth_allowed)
@@ -97,7 +83,9 @@ def _found(model: Model, section: ContactsSection) -> Contacts:
     )
     report = build_report(model, findings)
     remarks = (*notices, *twice, *simpler, *left_alone, *report_notices(model, section, report, findings))
-    return _contacts(kept, areas, found, (law_of, names), replace(report, notices=remarks), glue.solid_of_block)
+    report = replace(report, notices=remarks)
+    gaps = kept.gaps * kept.overlays.sizes
+    return Contacts.on(kept.overlays, areas, found, (law_of, names), gaps, report, glue.solid_of_block)
 
 
 def _verdicts(model: Model, facets: Facets, tolerance: float, overlap: float) -> tuple[Verdicts, SeparatedPairs]:
@@ -114,38 +102,6 @@ def _verdicts(model: Model, facets: Facets, tolerance: float, overlap: float) ->
     prescribed = patches_of_prescribed(model, model.interfaces)
     nothing = prescribed.take(np.empty(0, dtype=np.int64))
     return Verdicts(prescribed, nothing, nothing), SeparatedPairs(nothing, np.empty(0, dtype=np.int64))
-
-
-def _contacts(
-    kept: Patches,
-    areas: tuple[FloatArray, FloatArray],
-    found: InterfacePoints,
-    joints: tuple[IntArray, tuple[str, ...]],
-    report: ContactReport,
-    solid_of_block: IntArray | None,
-) -> Contacts:
-    """The interfaces kept, in space and in the deck's unit of length.
-
-    areas  : area and centroid of each, relative to block size
-    joints : row of each in the names of laws, and these names
-    """
-    size, interface = kept.overlays.sizes, found.polygon
-    return Contacts(
-        bodies=kept.overlays.bodies,
-        normals=kept.overlays.frames[:, 0],
-        areas=areas[0] * size**2,
-        centroids=_in_space(kept, np.arange(len(kept)), areas[1]),
-        gaps=kept.gaps * size,
-        joints=joints[0],
-        joint_names=joints[1],
-        point_start=starts(np.bincount(interface, minlength=len(kept)).astype(np.int64)),
-        outline=found.outline,
-        points=_in_space(kept, interface, found.points),
-        frames=kept.overlays.frames[interface],
-        point_areas=found.areas * size[interface] ** 2,
-        report=report,
-        solid_of_block=solid_of_block,
-    )
 
 
 def _inside(model: Model, glue: Glue, bodies: IntArray) -> BoolArray:
@@ -167,15 +123,8 @@ def _order(patches: Patches, chosen: BoolArray) -> IntArray:
 
 def _centroids(patches: Patches) -> FloatArray:
     """Of common surfaces, (n, 3) m."""
-    return _in_space(patches, np.arange(len(patches)), shapely.get_coordinates(shapely.centroid(patches.polygons)))
-
-
-def _in_space(patches: Patches, row: IntArray, points: FloatArray) -> FloatArray:
-    """Local points (n, 2) of the patches ``row`` in space, (n, 3) m."""
-    overlays = patches.overlays
-    offsets = np.einsum("ka,kai->ki", points, overlays.frames[row, 1:])
-    result: FloatArray = overlays.origins[row] + overlays.sizes[row, None] * offsets
-    return result
+    centres = shapely.get_coordinates(shapely.centroid(patches.polygons))
+    return in_space(patches.overlays, np.arange(len(patches)), centres)
 
 
 def patches_of_prescribed(model: Model, prescribed: PrescribedInterfaces) -> Patches:

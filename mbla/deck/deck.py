@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 import os
 from collections.abc import Callable, Iterable, Sequence
+from copy import deepcopy
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -25,7 +26,6 @@ from mbla.deck.units import Units
 from mbla.deck.validation import validate
 from mbla.errors import MOST_FAULTS, DeckError, Fault, FileError, Message, Notice, first_faults
 from mbla.process.collector import no_collection
-from mbla.process.sharing import copied
 
 
 @dataclass(frozen=True)
@@ -108,7 +108,7 @@ def read_deck(path: str | Path, overrides: Sequence[str] = (), *, expected: bool
         if the deck file itself cannot be opened
     """
     with no_collection():
-        return _read(Path(path), overrides, expected=expected)
+        return _read(Path(path), read_files(Path(path)), overrides, expected=expected)
 
 
 def read_deck_text(text: str, path: Path, overrides: Sequence[str] = (), *, expected: bool = True) -> Deck:
@@ -120,11 +120,19 @@ def read_deck_text(text: str, path: Path, overrides: Sequence[str] = (), *, expe
     Raises DeckError with every fault found.
     """
     with no_collection():
-        return _read(path, overrides, text, expected=expected)
+        return _read(path, read_files(path, text), overrides, expected=expected)
 
 
-def _read(path: Path, overrides: Sequence[str], text: str | None = None, *, expected: bool = True) -> Deck:
-    tree, reading = _files(path, text)
+def deck_of_files(
+    path: Path, files: tuple[Tree, Reading], overrides: Sequence[str] = (), *, expected: bool = True
+) -> Deck:
+    """As ``read_deck``, of files that ``read_files`` has read and that are to be taken again: they stay as they are."""
+    with no_collection():
+        return _read(path, deepcopy(files), overrides, expected=expected)
+
+
+def _read(path: Path, files: tuple[Tree, Reading], overrides: Sequence[str], *, expected: bool) -> Deck:
+    tree, reading = files
     for number, text in enumerate(overrides, start=1):
         reading.faults += apply_override(tree, text, number)
     if not reading.complete:  # what could not be read would be reported as missing
@@ -171,13 +179,6 @@ def _read(path: Path, overrides: Sequence[str], text: str | None = None, *, expe
         fault_at=tree.fault,
         resolve_file=_resolver(tree, path),
     )
-
-
-def _files(path: Path, text: str | None) -> tuple[Tree, Reading]:
-    """As ``read_files``; where many decks share what they have in common a file is read once."""
-    if text is not None:
-        return read_files(path, text)
-    return copied("deck", (str(path), str(path.absolute())), lambda: read_files(path))
 
 
 def _units(data: dict[str, Any]) -> Units:

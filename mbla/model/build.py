@@ -1,7 +1,6 @@
 """From the deck to the model: items, blocks, supports, masses, joints, loads, images, in this order.
 
-The structure (blocks, supports, prescribed interfaces) depends on no load, joint law or setting of the analysis: decks
-that differ in these only share it.
+The structure (blocks, supports, prescribed interfaces) depends on no load, joint law or setting of the analysis.
 """
 
 from __future__ import annotations
@@ -13,9 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from mbla.arrays import BoolArray
-from mbla.deck.content import OutputSection
 from mbla.deck.deck import Deck
-from mbla.deck.sections.analysis import AnalysisSection
 from mbla.deck.sections.load_cases import LoadCaseSection
 from mbla.deck.sections.loads import AddedMass
 from mbla.deck.sections.materials import FRICTIONLESS, JointLaw
@@ -32,7 +29,7 @@ from mbla.model.loads import LoadSite, build_load_cases
 from mbla.model.model import Ground, Joint, LoadCase, Model, PrescribedInterfaces
 from mbla.model.objective import build_objective
 from mbla.model.outside import outside
-from mbla.model.selectors import Roster, check_overrides, select_blocks, unplaced
+from mbla.model.selectors import Roster, check_overrides, select_blocks
 from mbla.model.settlement import build_settlement
 from mbla.model.solids.blocks import PointMasses, joined_masses
 from mbla.model.solids.build import BuiltBlocks, build_blocks
@@ -43,7 +40,6 @@ from mbla.model.symmetry import with_images
 from mbla.model.ties.build import build_ties
 from mbla.model.ties.ties import Ties, joined_ties
 from mbla.model.wording import named, vector
-from mbla.process.sharing import once
 
 
 def build_model(deck: Deck) -> Model:
@@ -116,10 +112,6 @@ def _load_cases(
     return load_cases
 
 
-NO_LAW = JointLaw(friction=0.0)
-"""stands for every joint law: only their names count here"""
-
-
 @dataclass(frozen=True)
 class Structure:
     """Blocks by name, with the masses that rest on them, and what holds them; faults go to the roster.
@@ -140,36 +132,7 @@ class Structure:
 
 
 def structure_of(deck: Deck) -> Structure:
-    """Build it, or take that of an earlier deck that describes the same structure in the same files."""
-    bare = _bare(deck)
-    keys_set = tuple(text.partition("=")[0] for text in deck.overrides)  # a file is relative to where it is named
-    files = tuple(str(source.path.absolute()) for source in deck.sources)
-    content = (bare.content, bare.units, files, keys_set)
-    structure = once("structure", content, lambda: _build(bare), lasts=lambda structure: not structure.roster.faults)
-    return replace(structure, roster=structure.roster.of_deck(deck.fault_at))
-
-
-def _bare(deck: Deck) -> Deck:
-    """The deck without what its structure must not depend on."""
-    content = deck.content.model_copy(
-        update={
-            "title": "",
-            "parameters": {},
-            "joints": dict.fromkeys(deck.content.joints, NO_LAW),
-            "vehicles": {},
-            "loads": {},
-            "ties": [],
-            "load_cases": {},
-            "analysis": AnalysisSection(),
-            "strengthen": None,
-            "output": OutputSection(),
-            "expected": {},
-        }
-    )
-    return replace(deck, content=content)
-
-
-def _build(deck: Deck) -> Structure:
+    """What the deck describes besides loads and joint laws."""
     faults: list[Fault] = []
     items = collect_items(deck, faults)
     built = build_blocks(items.polyhedra, items.labels, deck.contacts.tolerance)
@@ -195,8 +158,7 @@ def _build(deck: Deck) -> Structure:
     sizes = () if faults else unusual_sizes(roster.blocks, supports.fixed, deck.units)
     first = (*items.notices, *built.notices, *([far] if isinstance(far, Notice) else []), *sizes)
     bent = replace(built.bent, items=items.items[built.bent.blocks])
-    placeless = roster.of_deck(unplaced)  # places are those of one deck
-    return Structure(placeless, supports, interfaces, bent, fill, carried, first)
+    return Structure(roster, supports, interfaces, bent, fill, carried, first)
 
 
 def _with_closed_joints(deck: Deck, built: BuiltBlocks, items: CollectedItems, faults: list[Fault]) -> BuiltBlocks:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
@@ -49,10 +49,6 @@ class Roster:
         order = np.argsort(codes, kind="stable")
         parts = np.split(order, np.cumsum(np.bincount(codes, minlength=len(names)))[:-1])
         return dict(zip(names.tolist(), parts, strict=True))
-
-    def of_deck(self, fault_at: Callable[[KeyPath, Message], Fault]) -> Roster:
-        """The same for another deck with these blocks, with a record of its own of what is found."""
-        return replace(self, fault_at=fault_at, faults=list(self.faults), notices=list(self.notices))
 
     def refuse(self, finding: Finding) -> None:
         """Add a fault, once: several load cases may have the same named load."""

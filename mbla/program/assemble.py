@@ -19,7 +19,6 @@ from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.contacts.contacts import Contacts, TieContacts
 from mbla.model.model import LoadCase, Model
 from mbla.model.solids.measures import connected_labels
-from mbla.process.sharing import shared
 from mbla.program.facts import ModelFacts
 from mbla.program.program import Program, Scaling
 from mbla.program.reductions.restrict import guide_projector, guided_program
@@ -207,7 +206,6 @@ def _further(n_bodies: int, model: Model, ties: TieContacts, free: IntArray, n_p
     return sp.csr_array(sp.coo_array(entries, shape=(6 * len(free), 3 * n_points)))
 
 
-@shared("equilibrium")
 def _matrix(
     n_bodies: int, centroids: FloatArray, bodies: IntArray, points: FloatArray, frames: FloatArray, free: IntArray
 ) -> sp.csr_array:

@@ -24,7 +24,6 @@ import numpy as np
 import scipy.sparse as sp
 
 from mbla.arrays import FloatArray, IntArray
-from mbla.process.sharing import shared
 from mbla.program.program import Program
 from mbla.program.yield_conditions import Coulomb, Crushing, TensionCutOff
 from mbla.program.yield_conditions.limits import YieldLimits
@@ -185,7 +184,6 @@ def _below(first: FloatArray, matrix: sp.csc_array) -> sp.csc_array:
     return sp.csc_array((entries, indices, pointers), shape=(matrix.shape[0] + 1, matrix.shape[1]))
 
 
-@shared("kinematic form")
 def _rows_of_points(equilibrium_matrix: sp.csr_array, c: int, limits: YieldLimits, rows: PointRows) -> sp.csc_array:
     """All rows but the first: what the contact points allow, whatever the loads; ``c`` components of force a point."""
     velocity = sp.csr_array(equilibrium_matrix.T)  # rows v_N, v_T1, v_T2 (v_N, v_T) of each point

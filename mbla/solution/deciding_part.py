@@ -10,13 +10,13 @@ import numpy as np
 from mbla.arrays import FloatArray
 from mbla.errors import Message
 from mbla.program.program import Program
-from mbla.solution.cone_solvers.cone_solution import Log
 from mbla.solution.flow.path_record import Stop
 from mbla.solution.law.interfaces import NONE, Interfaces
 from mbla.solution.mechanics import certificate_of, mechanics_of
 from mbla.solution.nonassociative.law_state import LawState
 from mbla.solution.nonassociative.least_found import looks_lower
 from mbla.solution.nonassociative.locking import locking_forces
+from mbla.solution.part_context import PartContext
 from mbla.solution.part_result import PartResult
 from mbla.solution.parts import assemble_parts
 from mbla.solution.settings import SolverSettings
@@ -54,18 +54,11 @@ OF_INTERFACES = Message(
 
 @dataclass(frozen=True)
 class SolvedParts:
-    """All parts of a structure with what was found for each.
-
-    interfaces : of the model that have a law of their own in the path of elastic joints
-    beside     : those in a second path, with torsion
-    """
+    """All parts of a structure with what was found for each."""
 
     parts: tuple[Program, ...]
     results: tuple[PartResult, ...]
-    settings: SolverSettings
-    log: Log
-    interfaces: Interfaces = NONE
-    beside: Interfaces = NONE
+    context: PartContext
 
     def mechanics(
         self,
@@ -84,7 +77,9 @@ class SolvedParts:
         """
         if state is None:
             return None
-        assembled = assemble_parts(self.parts, part, state, self.settings, self.log, collapse, interfaces, below)
+        assembled = assemble_parts(
+            self.parts, part, state, self.context.settings, self.context.log, collapse, interfaces, below
+        )
         return None if assembled is None else mechanics_of(*assembled, flow_rule)
 
 
@@ -133,44 +128,46 @@ def _without_load_factor(solved: SolvedParts, part: int) -> Solution:
         status, reason = result.sequence.status, result.sequence.reason
     if status is Status.UNBOUNDED:
         lock = _known_lock(solved)
-        lock = locking_forces(solved.parts, solved.settings, solved.log) if lock is None else lock
+        lock = locking_forces(solved.parts, solved.context.settings, solved.context.log) if lock is None else lock
         if lock is None:
             status, reason = Status.NOT_VERIFIED, LOCK_NOT_PROVED
     motion, motions = None, None
     if associative.certificate is not None:
         motion, motions = certificate_of(solved.parts[part], associative.certificate)
-    solution = _solution(solved.settings, status, reason)
+    solution = _solution(solved.context.settings, status, reason)
     return replace(solution, certificate=motion, certificate_motions=motions, lock=lock)
 
 
 def _with_load_factor(solved: SolvedParts, first: int, first_associative: int) -> Solution:
-    results = solved.results
-    result, analysis = results[first], solved.settings.analysis
+    results, context = solved.results, solved.context
+    result, analysis = results[first], context.settings.analysis
     at_collapse = [each.associative.state for each in results]
     remarks = [remark for each in results for remark in each.remarks]
     locked = all(state is None for state in at_collapse)  # with normality alone
     solution = replace(
-        _solution(solved.settings, *_claim(results, first)),
+        _solution(context.settings, *_claim(results, first)),
         tolerance_requested=_tolerance_requested(results),
         associative=solved.mechanics(
             first_associative,
             at_collapse[first_associative],
             "associative",
             at_collapse,
-            solved.interfaces,
+            context.interfaces,
             [each.associative.below for each in results],
         ),
-        lock=locking_forces(solved.parts, solved.settings, solved.log) if locked else None,
+        lock=locking_forces(solved.parts, context.settings, context.log) if locked else None,
     )
     if result.sequence is None:
         return replace(solution, mechanics=solution.associative, remarks=tuple(remarks))
     sequence, rule = result.sequence, analysis.flow_rule
-    searched = looks_lower(solved.parts[first], solved.settings, solved.interfaces) or solved.parts[first].facts.settles
-    words = [] if searched or not solved.settings.by_elastic_path else [OTHER_HISTORIES]
-    words = [OF_INTERFACES] if words and solved.interfaces is not NONE else words
+    searched = (
+        looks_lower(solved.parts[first], context.settings, context.interfaces) or solved.parts[first].facts.settles
+    )
+    words = [] if searched or not context.settings.by_elastic_path else [OTHER_HISTORIES]
+    words = [OF_INTERFACES] if words and context.interfaces is not NONE else words
     return replace(
         _with_torsion_of_parts(solution, solved),
-        mechanics=solved.mechanics(first, sequence.state, rule, [each.state for each in results], solved.interfaces),
+        mechanics=solved.mechanics(first, sequence.state, rule, [each.state for each in results], context.interfaces),
         least=solved.mechanics(first, result.least, rule),
         scheme=analysis.scheme if rule == "non_associative" else "",
         remarks=(*sequence.remarks, *words, *remarks),
@@ -209,7 +206,7 @@ def _with_torsion_of_parts(solution: Solution, solved: SolvedParts) -> Solution:
     torsion = results[first].torsion
     assert torsion is not None
     states = [result.state if result.torsion is None else result.torsion.state for result in results]
-    found = solved.mechanics(first, torsion.state, "non_associative", states, solved.beside)
+    found = solved.mechanics(first, torsion.state, "non_associative", states, solved.context.beside)
     return replace(solution, torsion=found, torsion_end=torsion.stop.value)
 
 

@@ -28,26 +28,30 @@ from mbla.solution.law.interfaces import NONE, Interfaces
 from mbla.solution.lifted import solution_on_blocks
 from mbla.solution.of_interfaces import of_interfaces
 from mbla.solution.part import associative_part, with_flow_rule, with_least, with_standing, with_torsion
+from mbla.solution.part_context import PartContext
 from mbla.solution.part_result import PartResult
 from mbla.solution.proof.claim import with_proof
 from mbla.solution.reach import stays_within, within_reach
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import IterationRecord, Mechanics, Solution, Status
 from mbla.solution.standing.claim import as_it_stands
-from mbla.solution.standing.standing import worst_standing
+from mbla.solution.standing.standing import StressFreeStates, worst_standing
 
 BROKE_DOWN = "a system of equations of the method broke down ({}): try another scheme or solver"
 
 
-def solve(program: CaseProgram, settings: SolverSettings, log: Log | None = None) -> Solution:
+def solve(
+    program: CaseProgram, settings: SolverSettings, log: Log | None = None, states: StressFreeStates | None = None
+) -> Solution:
     """Load factor of one load case by the flow rule of the analysis, and what is requested in addition, on all blocks.
 
-    log : called once per iteration of a cone program, as it goes
+    log    : called once per iteration of a cone program, as it goes
+    states : of stress-free assemblies that are known from other load cases, to which those of this one are added
     """
     interfaces = NONE
     if program.crushing is not None or program.twisting is not None:
         interfaces = Interfaces(program.crushing, program.twisting)
-    solution = solve_parts(program.reduced, settings, log, interfaces, _with_torsion(program, settings))
+    solution = solve_parts(program.reduced, settings, log, interfaces, _with_torsion(program, settings), states)
     if interfaces is not NONE:
         crush = program.crushing is not None
         solution = replace(solution, contact_model=settings.analysis.contact_model, stress_blocks=crush)
@@ -96,16 +100,19 @@ def solve_parts(
     log: Log | None = None,
     interfaces: Interfaces = NONE,
     beside: Interfaces = NONE,
+    states: StressFreeStates | None = None,
 ) -> Solution:
     """The same of the contact points of rigid bodies: their parts one after the other, then the whole structure.
 
     log        : called once per iteration of a cone program, as it goes
     interfaces : of the model that have a law of their own in the path of elastic joints
     beside     : those in a second path, with torsion
+    states     : as for ``solve``
     """
     started, (iterations, record) = time.perf_counter(), recorded(log)
-    results = tuple(_result_of(program, settings, record, interfaces, beside) for program in reduced.parts)
-    solution = combined(SolvedParts(reduced.parts, results, settings, record, interfaces, beside))
+    context = PartContext(settings, record, interfaces, beside, states)
+    results = tuple(_result_of(program, context) for program in reduced.parts)
+    solution = combined(SolvedParts(reduced.parts, results, context))
     assessed = [result.standing for result in results if result.standing is not None]
     standing = worst_standing(assessed) if assessed else None
     if standing is not None:
@@ -134,37 +141,30 @@ def recorded(log: Log | None) -> tuple[list[IterationRecord], Log]:
     return iterations, record
 
 
-def solve_part(
-    program: Program, settings: SolverSettings, log: Log, interfaces: Interfaces = NONE, beside: Interfaces = NONE
-) -> PartResult:
+def solve_part(program: Program, context: PartContext) -> PartResult:
     """One part by the flow rule of the analysis, with everything that is asked besides its load factor.
-
-    interfaces : of the model that have a law of their own in the path of elastic joints
-    beside     : those in a second path, with torsion
 
     Raises
     ------
     numpy.linalg.LinAlgError where a system of equations on the way to the load factor is singular
     """
-    result = associative_part(program, settings, log, interfaces)
-    result = with_flow_rule(result, settings, log, interfaces)
-    result = with_least(result, settings, log, interfaces)
-    result = with_torsion(result, settings, log, beside)
-    return with_standing(result, settings)
+    result = associative_part(program, context)
+    result = with_flow_rule(result, context)
+    result = with_least(result, context)
+    result = with_torsion(result, context)
+    return with_standing(result, context)
 
 
-def _result_of(
-    program: Program, settings: SolverSettings, log: Log, interfaces: Interfaces, beside: Interfaces
-) -> PartResult:
+def _result_of(program: Program, context: PartContext) -> PartResult:
     """What was found for one part; a system of equations that nobody expected to be singular is a reported failure."""
     try:
         easier = within_reach(program)
         if easier is not None:
-            result = solve_part(easier, settings, log, interfaces, beside)
+            result = solve_part(easier, context)
             states = [state for state in (result.associative.state, result.state) if state is not None]
             if states and all(stays_within(program, state.forces) for state in states):
                 return replace(result, program=program)
-        return solve_part(program, settings, log, interfaces, beside)
+        return solve_part(program, context)
     except np.linalg.LinAlgError as error:
         reason = BROKE_DOWN.format(str(error).lower())
         failure = AssociativeResult(Status.NUMERICAL_ERROR, None, None, reason, ())

@@ -10,10 +10,7 @@ import pytest
 import shapely
 
 from mbla.arrays import FloatArray, IntArray
-from mbla.contacts.broad_phase import (
-    find_block_pairs,
-    find_facet_pairs,
-)
+from mbla.contacts.broad_phase import NEAR_MISS, are_opposite, find_block_pairs, find_facet_pairs
 from mbla.contacts.contacts import ContactsRefused
 from mbla.contacts.facets import build_facets
 from mbla.contacts.narrow_phase import Patches, find_patches, judge
@@ -41,7 +38,7 @@ def pairs_of(*extremes: Box) -> IntArray:
 def facet_pairs(blocks: Blocks, tolerance: float = TOLERANCE) -> list[tuple[list[float], list[float]]]:
     """Normals of the facets that are paired."""
     facets = build_facets(blocks)
-    found = find_facet_pairs(blocks, facets, tolerance)
+    found = find_facet_pairs(blocks, facets, (), NEAR_MISS * tolerance, are_opposite)
     return [(facets.normals[a].round(6).tolist(), facets.normals[b].round(6).tolist()) for a, b in found]
 
 

@@ -11,10 +11,12 @@ import pytest
 from mbla.assembly import build_assembly
 from mbla.contacts.carried import Touching
 from mbla.contacts.moved import MovedSearch
+from mbla.contacts.search import find_contacts
 from mbla.deck import read_deck
 from mbla.model import build_model
-from mbla.model.model import Model
+from mbla.model.model import Model, PrescribedInterfaces
 from mbla.model.pose import Pose, paths_of
+from tests.contacts.structures import blocks_of, boxes, ground, model_of, section
 
 DECK = """
 mbla: 1
@@ -76,3 +78,28 @@ def test_gaps_are_distances_from_the_face_of_the_host_wherever_points_slide(
     heights = (corners @ tilted.rotation[1].T + blocks.centroids[1] + tilted.shift[1])[:, 2] - 1.0
     assert np.sort(before) == pytest.approx(np.sort(heights), abs=1e-12)
     assert after == pytest.approx(before, abs=1e-12)
+
+
+def test_joint_laws_of_a_table_hold_wherever_blocks_have_moved() -> None:
+    """Two blocks share the end of a long one and stand beside it on the ground; the table has two of the laws."""
+    extremes = [
+        ([0.0, 0.0, 0.0], [1.0, 2.0, 1.0]),
+        ([1.0, 0.0, 0.0], [2.0, 1.0, 1.0]),
+        ([1.0, 1.0, 0.0], [2.0, 2.0, 1.0]),
+    ]
+    model = model_of(blocks_of(boxes(*extremes)), grounds=(ground(),))
+    beside = [[[1.0, y, 0.0], [1.0, y + 1.0, 0.0], [1.0, y + 1.0, 1.0], [1.0, y, 1.0]] for y in (0.0, 1.0)]
+    below = [[1.0, 1.0, 0.0], [2.0, 1.0, 0.0], [2.0, 2.0, 0.0], [1.0, 2.0, 0.0]]
+    given = PrescribedInterfaces(
+        bodies=np.array([[0, 1], [0, 2], [3, 2]]),
+        normals=np.array([[1.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]]),
+        corners=np.array([*beside[0], *beside[1], *below]),
+        corner_start=np.array([0, 4, 8, 12]),
+        joints=("mortar", "", "lead"),
+    )
+    model = replace(model, interfaces=given)
+    found = MovedSearch(model, find_contacts(model, section()), section()).at(moved(model, [0.01, 0.0, 0.0], [0.0] * 3))
+    contacts = found.contacts
+    named = [contacts.joint_names[law] for law in contacts.joints]
+    laws = dict(zip(map(tuple, contacts.bodies.tolist()), named, strict=True))
+    assert laws == {(0, 1): "mortar", (0, 2): "dry", (1, 2): "dry", (3, 0): "dry", (3, 1): "dry", (3, 2): "lead"}

@@ -7,7 +7,7 @@
 Each of the two sweeps, with directions around the horizon, so that the arch is solved in space, and in its plane, by
 
 - ``separate``: ``mbla.run(deck, set=...)`` for every point, in one process, that imports nothing any more;
-- ``shared``: the points one after the other in one process, which shares what they have in common, with the default
+- ``shared``: the points one after the other in one process, which hands on states under the dead load, with the default
   columns: range and peak of the load factor are none of them, so that points are solved without;
 - ``shared, range``: the same with the range of the load factor, so that every point does all that a separate run does;
 - ``one worker``, ``two workers``: the command ``mbla sweep -j 1`` and ``-j 2``, with start, journal and table.

@@ -12,6 +12,7 @@ from mbla.solution import part
 from mbla.solution.associative.solve_associative import AssociativeResult
 from mbla.solution.nonassociative.schemes import NOT_PUBLISHED, solve_nonassociative
 from mbla.solution.part import SEARCH_BROKE_DOWN
+from mbla.solution.part_context import PartContext
 from mbla.solution.part_result import PartResult
 from mbla.solution.settings import solver_settings
 from mbla.solution.solution import Status
@@ -38,7 +39,7 @@ def wedge(friction: float) -> str:
 
 def result_of(text: str, *overrides: str) -> PartResult:
     line = line_of(text, *overrides)
-    return solve_part(line.program, solver_settings(line.deck.analysis), lambda record: None)
+    return solve_part(line.program, PartContext(solver_settings(line.deck.analysis), lambda record: None))
 
 
 def test_livesleys_correction_needs_associative_forces() -> None:
@@ -72,7 +73,7 @@ def test_a_part_without_live_load_has_only_to_stand(weight: float) -> None:
     line = line_of(BLOCK)
     program = line.program
     unloaded = replace(program, live_load=np.zeros_like(program.live_load), dead_load=weight * program.dead_load)
-    result = solve_part(unloaded, solver_settings(line.deck.analysis), lambda record: None)
+    result = solve_part(unloaded, PartContext(solver_settings(line.deck.analysis), lambda record: None))
     assert not result.loaded
     assert result.status is Status.UNBOUNDED
     assert result.reason == ("no live load acts on it" if weight else "")
@@ -118,7 +119,7 @@ def test_a_search_in_space_finds_the_wall_that_falls_by_itself() -> None:
 
 def in_the_plane(*overrides: str) -> PartResult:
     line = line_of(WALL, "parameters.n=4", "analysis.flow_rule=non_associative", *overrides)
-    return solve_part(planar_program(line), solver_settings(line.deck.analysis), lambda record: None)
+    return solve_part(planar_program(line), PartContext(solver_settings(line.deck.analysis), lambda record: None))
 
 
 def test_what_a_search_finds_stands_beside_the_load_factor_of_the_path() -> None:

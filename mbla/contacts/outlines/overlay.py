@@ -157,6 +157,13 @@ def gap_at(overlays: Overlays, row: IntArray, points: FloatArray) -> FloatArray:
     return gap
 
 
+def in_space(overlays: Overlays, row: IntArray, points: FloatArray) -> FloatArray:
+    """Local points (n, 2) of the overlays ``row`` in space, (n, 3) m."""
+    offsets = np.einsum("ka,kai->ki", points, overlays.frames[row, 1:])
+    result: FloatArray = overlays.origins[row] + overlays.sizes[row, None] * offsets
+    return result
+
+
 def _plane_over(
     planes: Planes, near: FloatArray, frames: FloatArray, sizes: FloatArray
 ) -> tuple[FloatArray, FloatArray]:

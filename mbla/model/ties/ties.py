@@ -104,12 +104,6 @@ class Ties:
         bodies = np.where(self.bodies == OUTSIDE, outside, self.bodies)
         return np.column_stack([bodies[self.start[:-1]][self.tie_of_point], bodies])
 
-    @property
-    def lines(self) -> Ties:
-        """The same without their forces: what the search for contacts goes by."""
-        none = np.zeros(len(self))
-        return replace(self, least=none, greatest=none, prestress=none, breaks_at=none)
-
     def take(self, rows: IntArray) -> Ties:
         """Some of the ties, (k,), in that order."""
         points = items_of_rows(self.start, rows)

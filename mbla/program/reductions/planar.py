@@ -18,7 +18,6 @@ import numpy as np
 import scipy.sparse as sp
 
 from mbla.arrays import FloatArray, IntArray
-from mbla.process.sharing import once
 from mbla.program.lift import Lift
 from mbla.program.program import Program
 from mbla.program.reductions.mirror import Mirror, in_plane_motions
@@ -38,9 +37,7 @@ def is_planar(scene: Scene, mirror: Mirror) -> bool:
 
 def planar_program(scene: Scene, mirror: Mirror) -> tuple[Program, Lift]:
     """The program of motions in the plane, and the way back from it."""
-    places = (scene.centroids, scene.arms, scene.points, scene.frames, scene.areas, scene.bodies, scene.interfaces)
-    content = (*places, mirror.normal, mirror.point_of)
-    unknowns = once("planar", content, lambda: _unknowns(scene, mirror))
+    unknowns = _unknowns(scene, mirror)
     limits = _added(scene.program.limits, unknowns.group, unknowns.size)
     way = Lift(scene.program, unknowns.velocities, unknowns.forces, components=2)
     return restricted(scene.program, way.velocities, way.forces, limits, components=2), way

@@ -18,7 +18,6 @@ from scipy.sparse.csgraph import connected_components
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.model.model import Model
-from mbla.process.sharing import shared
 from mbla.program.lift import Lift
 from mbla.program.program import Program, Scaling
 from mbla.program.yield_conditions.limits import YieldLimits
@@ -53,7 +52,6 @@ def restricted(
     )
 
 
-@shared("restricted")
 def _in_unknowns(matrix: sp.csr_array, velocities: sp.csr_array | None, forces: sp.csr_array | None) -> sp.csr_array:
     """SᵀA P."""
     found = matrix if velocities is None else velocities.T @ matrix

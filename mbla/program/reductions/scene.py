@@ -22,7 +22,6 @@ from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import Model
 from mbla.model.solids.measures import connected_labels
-from mbla.process.sharing import shared
 from mbla.program.program import Program
 from mbla.program.reductions.restrict import chosen_limits, restricted, selection
 
@@ -163,7 +162,6 @@ def refined(interfaces: IntArray, points: FloatArray, normals: FloatArray) -> Bo
     return np.asarray(np.isin(interfaces, straight))
 
 
-@shared("turns")
 def _turns(interfaces: IntArray, points: FloatArray, normals: FloatArray) -> FloatArray:
     """``turns`` of points (n_points, 3) with normals (n_points, 3)."""
     start = np.flatnonzero(np.diff(interfaces, prepend=-1))

@@ -18,7 +18,6 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from mbla.arrays import FloatArray
-from mbla.process.sharing import shared
 from mbla.program.program import Program
 from mbla.program.static import gravity_form
 from mbla.solution.associative.associative_form import AssociativeForm, associative_form
@@ -38,7 +37,7 @@ from mbla.solution.proof.bounds import falling_motion
 from mbla.solution.proof.static_repair import repaired_forces
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import WITH_VALUE, ProgramRecord, Status
-from mbla.solution.standing.standing import StressFree, stress_free_state
+from mbla.solution.standing.standing import StressFree, StressFreeStates, stress_free_state
 from mbla.solution.thresholds import GAP_TOLERANCE
 
 LOCKED = "no mechanism exists in which the live load does work: friction locks the structure under any multiple"
@@ -81,6 +80,7 @@ def solve_associative(
     first: int = 1,
     stress_free: bool = False,
     carried: bool = False,
+    states: StressFreeStates | None = None,
 ) -> AssociativeResult:
     """Solve the program of one load case with associative flow.
 
@@ -88,6 +88,7 @@ def solve_associative(
     stress_free : the state of the stress-free assembly is wanted as well: it is found before the program with the live
                   load reversed, which it usually saves
     carried     : the dead load alone is known to be carried
+    states      : of stress-free assemblies that are known, to which that of this one is added
     """
     run = AssociativeRun(program, settings, log, first, [])
     falling = _fall_of_what_nothing_touches(program)
@@ -104,7 +105,7 @@ def solve_associative(
         # where a support gives way, forces at any load factor carry the dead load, with another reaction
         shown = program.facts.settles and answer.gap is not None and np.isfinite(answer.gap.static)
         return _with_dead_load(run, answer, proved=bool(shown))
-    state = stress_free_state(program)
+    state = stress_free_state(program, states)
     result = _with_dead_load(run, answer, proved=_proves(run, state))
     return replace(result, stress_free=state)
 
@@ -121,7 +122,6 @@ def _proves(run: AssociativeRun, state: StressFree) -> bool:
     return _carried_alone(run.program.without_live_load(), forces) or _carrying(run, forces, 0.0) is not None
 
 
-@shared("carried")
 def _carried_alone(program: Program, forces: FloatArray) -> bool:
     """Whether forces can be repaired to carry the dead load of a program without live load."""
     return repaired_forces(program, forces, 0.0) is not None

@@ -17,7 +17,6 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray
-from mbla.process.sharing import shared
 from mbla.program.program import Program
 from mbla.program.reductions.restrict import ChosenPart
 from mbla.program.stiffness_shares import shares_of
@@ -209,13 +208,7 @@ def _at_rest(
     program, gaps = joints.program, gaps if part is None else gaps[part.points]
     if program.facts.settles or not np.any(program.dead_load):  # the live load counts
         return AtRest(joints, gravity_step(joints, mean_live_load(program, scale), gaps), settings, part)
-    return AtRest(joints, _dead_load_alone(joints.without_live_load, gaps), settings, part)
-
-
-@shared("dead load at rest")
-def _dead_load_alone(joints: ElasticJoints, gaps: FloatArray) -> Gravity:
-    """The dead load that load cases have in common."""
-    return gravity_step(joints, gaps=gaps)
+    return AtRest(joints, gravity_step(joints.without_live_load, gaps=gaps), settings, part)
 
 
 def _ends_at_rest(rest: AtRest, program: Program, associative: float | None) -> Stop | None:

@@ -26,7 +26,6 @@ from numpy.typing import NDArray
 from scipy.sparse.linalg import SuperLU
 
 from mbla.arrays import FloatArray, IntArray, distinct
-from mbla.process.sharing import shared
 from mbla.program.program import Program
 from mbla.solution.linear_algebra.block_products import dense_rows, sets_of_alike
 from mbla.solution.linear_algebra.qdldl_factors import elimination_order
@@ -185,7 +184,6 @@ def stiffness_of(program: Program) -> Stiffness:
     return Stiffness(**vars(found), program=program)
 
 
-@shared("stiffness")
 def _places(matrix: sp.csr_array, components: int, n_points: int) -> Places:
     """Of an equilibrium matrix, (n_rows, components n_points)."""
     n, compatibility = matrix.shape[0], sp.csr_array(matrix.T)

@@ -20,23 +20,38 @@ from mbla.solution.sequence.solved_case import AnalysisSequence, SolvedCase
 from mbla.solution.sequence.tilting_table import tilting_table
 from mbla.solution.settings import SolverSettings, settings_for
 from mbla.solution.solve import solve
+from mbla.solution.standing.standing import StressFreeStates
 from mbla.solution.verification.verify import verify
 
 Analysis = Callable[[LoadCase], SolvedCase]
 
 
-def answered(assembly: Assembly, load_case: LoadCase, settings: SolverSettings, log: Log | None = None) -> SolvedCase:
+def answered(
+    assembly: Assembly,
+    load_case: LoadCase,
+    settings: SolverSettings,
+    log: Log | None = None,
+    states: StressFreeStates | None = None,
+) -> SolvedCase:
     """The load case as it was posed last, solved and verified.
 
     settings : of the analysis that the deck asks for
+    states   : of stress-free assemblies that are known from load cases before
     """
     own, sequence = settings_for(load_case, settings), sequence_of(assembly, load_case, settings)
-    return answer_of(sequence, lambda case: analysed(assembly, case, own, log))
+    states = StressFreeStates() if states is None else states
+    return answer_of(sequence, lambda case: analysed(assembly, case, own, log, states))
 
 
-def analysed(assembly: Assembly, load_case: LoadCase, settings: SolverSettings, log: Log | None = None) -> SolvedCase:
+def analysed(
+    assembly: Assembly,
+    load_case: LoadCase,
+    settings: SolverSettings,
+    log: Log | None = None,
+    states: StressFreeStates | None = None,
+) -> SolvedCase:
     """One analysis: the program of a load case solved and verified."""
-    solution = solve(build_program(assembly, load_case, settings.analysis), settings, log)
+    solution = solve(build_program(assembly, load_case, settings.analysis), settings, log, states)
     return SolvedCase(load_case, solution, verify(assembly, load_case, solution))
 
 

@@ -13,12 +13,11 @@ by the law of elastic joints that remember nothing.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from mbla.arrays import FloatArray
-from mbla.process.sharing import shared
+from mbla.arrays import FloatArray, alike
 from mbla.process.stopwatch import stage
 from mbla.program.build import CaseProgram
 from mbla.program.program import Program
@@ -63,17 +62,40 @@ class StressFree:
     gravity: Gravity | None = None
 
 
+MOST_STATES = 8
+"""Of the last used: load cases differ in what symmetry they leave, and have a few parts."""
+
+
+@dataclass
+class StressFreeStates:
+    """States that load cases, or decks, which are solved one after the other have in common, each with its program.
+
+    Load cases of one dead load have the same but for what their live loads leave of reductions.
+    """
+
+    known: list[tuple[Program, StressFree]] = field(default_factory=list)
+
+    def of(self, program: Program) -> StressFree:
+        """That of a program as ``_stress_free`` takes it, found now or before."""
+        found = next((each for each in self.known if alike(each[0], program)), None)
+        self.known = [each for each in self.known if each is not found]
+        self.known = [*self.known, found or (program, _stress_free(program))][-MOST_STATES:]
+        return self.known[-1][1]
+
+
 @stage("standing")
-def stress_free_state(program: Program) -> StressFree:
+def stress_free_state(program: Program, states: StressFreeStates | None = None) -> StressFree:
     """State of the stress-free assembly under its dead load: the same whatever the live load and the flow rule.
 
     A support that gives way later is held.
+
+    states : those known, to which it is added
     """
-    at_points = replace(program, conditions=None)
-    return _stress_free(at_points if program.facts.settles else at_points.without_live_load())
+    alone = replace(program, conditions=None)
+    alone = alone if program.facts.settles else alone.without_live_load()
+    return _stress_free(alone) if states is None else states.of(alone)
 
 
-@shared("standing")
 def _stress_free(program: Program) -> StressFree:
     """``stress_free_state`` of a program that has no live load, unless a support gives way."""
     if not np.any(program.dead_load) or program.n_points == 0:  # nothing to carry, or guides alone to carry it
@@ -82,7 +104,8 @@ def _stress_free(program: Program) -> StressFree:
         history = StepHistory(none, np.ones(program.n_points), np.ones(program.n_points))
         rest = None if np.any(program.dead_load) else LawState(none, still, 0.0, 0.0, history=history)
         return StressFree(rest, program.dead_load)
-    joints = [ElasticJoints.of(program, shares_of(program), ratio) for ratio in RATIOS]
+    first = ElasticJoints.of(program, shares_of(program), RATIOS[0])
+    joints = [replace(first, shear=ratio * first.normal) for ratio in RATIOS]
     found = [gravity_step(one) for one in joints]
     motion = next((each.state.u for each in found if not each.carried), found[0].state.u)
     if all(gravity.carried for gravity in found):
@@ -97,14 +120,20 @@ def _at_rest(joints: ElasticJoints, gravity: Gravity) -> LawState:
     return LawState(state.forces, state.u, state.factor, 0.0, history=history)
 
 
-def assess_dead_load(program: Program, carried: bool | None = True, known: StressFree | None = None) -> StandingResult:
+def assess_dead_load(
+    program: Program,
+    carried: bool | None = True,
+    known: StressFree | None = None,
+    states: StressFreeStates | None = None,
+) -> StandingResult:
     """Standing of a part, reduced or not, with forces and displacements of the model where it stands.
 
     carried : whether some contact forces within the yield conditions are known to carry the dead load; None where that
               was not decided
     known   : ``stress_free_state`` of the program where it was found before
+    states  : as for that
     """
-    found = known or stress_free_state(program)
+    found = known or stress_free_state(program, states)
     if found.rest is not None:
         shown = _on_model(program, found.rest)
         return shown if np.any(program.dead_load) else replace(shown, reason=NO_DEAD_LOAD)

@@ -24,19 +24,19 @@ from multiprocessing.connection import Connection
 from pathlib import Path
 from typing import Any
 
-from mbla.deck import read_deck
-from mbla.deck.deck import Deck
+from mbla.deck.deck import Deck, deck_of_files
 from mbla.deck.sections.assessment import LIMIT_STATES
+from mbla.deck.text.include import read_files
 from mbla.errors import UsageError
 from mbla.process.limits import can_limit, limited, written
 from mbla.process.run_options import RunOptions
-from mbla.process.sharing import Memory, sharing
 from mbla.results.failures import words_of
 from mbla.results.files import OutputFolder
 from mbla.results.record.json_record import results_json
 from mbla.results.sta import StatusFile
 from mbla.results.write import write_results
 from mbla.run import solve_deck
+from mbla.solution.standing.standing import StressFreeStates
 from mbla.sweeps.identity import fingerprint_of, program_identity
 from mbla.sweeps.plan import DONE, FAILED, Outcome, Plain, Plan, Task, override_texts
 from mbla.sweeps.results import reason_of, result_places, values_of
@@ -161,13 +161,14 @@ def state_of(exit_code: int) -> str:
 class PointRunner:
     """Points of one plan, one after the other.
 
-    What points have in common is computed once: ``memory``. Files that the deck names are taken as they were when
-    they were first read.
+    The deck is taken as it was when it was first read. States of the stress-free assembly are handed on to the next
+    point, as by far the most of what points of one dead load have in common.
     """
 
     def __init__(self, plan: Plan) -> None:
         self.plan = plan
-        self.memory = Memory()
+        self.states = StressFreeStates()
+        self._files = read_files(Path(plan.deck))
         self._places = result_places(plan.results, plan.cases)
 
     def run(self, task: Task) -> Outcome:
@@ -184,29 +185,33 @@ class PointRunner:
         """Solve it with what earlier points left; without, where that leaves too little memory for this one."""
         if self.plan.timed:
             return self._quickest(task)
-        for memory in (self.memory, Memory()):
-            self.memory = memory
-            try:
-                with sharing(memory):
-                    return self._solve(task)
-            except MemoryError:
-                if not len(memory):
-                    raise
-        raise AssertionError  # nothing was left in the second
+        shared = bool(self.states.known)
+        try:
+            return self._solve(task)
+        except MemoryError:
+            if not shared:
+                raise
+        return self._by_itself(task)
 
     def _quickest(self, task: Task) -> tuple[int, str, dict[str, Plain]]:
         """Solve it by itself; of a quick one the shortest of some runs."""
-        found = [self._solve(task)]
+        found = [self._by_itself(task)]
         while len(found) < REPEATS and _seconds(found[0]) < SHORT:
-            found.append(self._solve(task))
+            found.append(self._by_itself(task))
         return min(found, key=_seconds)
+
+    def _by_itself(self, task: Task) -> tuple[int, str, dict[str, Plain]]:
+        self.states = StressFreeStates()
+        return self._solve(task)
 
     def _solve(self, task: Task) -> tuple[int, str, dict[str, Plain]]:
         plan, started = self.plan, time.perf_counter()
-        deck = read_deck(Path(plan.deck), (*plan.fixed, *override_texts(task.settings)), expected=False)
+        overrides = (*plan.fixed, *override_texts(task.settings))
+        deck = deck_of_files(Path(plan.deck), self._files, overrides, expected=False)
         deck = requested_only(deck, plan)
         status, stem = io.StringIO(), Path(plan.deck).stem
-        results = solve_deck(deck, RunOptions(cases=plan.cases), StatusFile(status, deck.title), None, started)
+        status_file = StatusFile(status, deck.title)
+        results = solve_deck(deck, RunOptions(cases=plan.cases), status_file, None, started, self.states)
         if plan.keep in ("all", state_of(results.exit_code)):
             with OutputFolder(Path(plan.folder) / FOLDER / str(task.number), stem, force=True) as out:
                 out.write_text(f"{stem}.sta", status.getvalue())

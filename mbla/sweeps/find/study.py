@@ -8,7 +8,6 @@ from typing import Any
 
 from mbla import __version__
 from mbla.deck import Deck
-from mbla.process.sharing import Memory, sharing
 from mbla.results.listing.text import counted, full_sentence, number, sentence, small, table
 from mbla.results.record.json_values import as_json
 from mbla.solution.further.zeros.samples import Zero
@@ -240,13 +239,12 @@ def find(deck: Deck, options: Any) -> Finding:
         answers.append(answer_at(deck, question, x))
         return answers[-1]
 
-    with sharing(Memory()):
-        samples = scan(*question.bounds, question.scan, at)
-        if all(each.status == REFUSED for each in samples):
-            refuse_unfit_deck(deck, question)
-        zeros = tuple(find_zeros(samples, at, question.absolute_tolerance))
-        asked = zeros if question.kind == "stands" else ()
-        standing = tuple(standing_at(deck, question, _standing_side(zero, question)) for zero in asked)
+    samples = scan(*question.bounds, question.scan, at)
+    if all(each.status == REFUSED for each in samples):
+        refuse_unfit_deck(deck, question)
+    zeros = tuple(find_zeros(samples, at, question.absolute_tolerance))
+    asked = zeros if question.kind == "stands" else ()
+    standing = tuple(standing_at(deck, question, _standing_side(zero, question)) for zero in asked)
     return Finding(question, tuple(answers), zeros, tuple(samples), standing)
 
 

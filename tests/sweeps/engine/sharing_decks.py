@@ -17,6 +17,7 @@ from mbla.process.run_options import RunOptions
 from mbla.results.results import Results
 from mbla.results.sta import StatusFile
 from mbla.run import solve_deck
+from mbla.solution.standing.standing import StressFreeStates
 from mbla.sweeps.plan import Plain, override_texts
 
 DECKS = Path(__file__).parents[3] / "decks"
@@ -81,11 +82,11 @@ NOT_COMPARED = ("seconds", "created", "sources", "time", "provenance")
 """fields of records: times, and what is the same in every run"""
 
 
-def solved(deck: str, settings: Settings) -> str:
+def solved(deck: str, settings: Settings, states: StressFreeStates | None = None) -> str:
     """The whole run in words, or the error that it ends with."""
     try:
         read = read_deck(DECKS / deck, override_texts(settings))
-        return "\n".join(stated(solve_deck(read, RunOptions(), StatusFile(io.StringIO(), ""), None, 0.0)))
+        return "\n".join(stated(solve_deck(read, RunOptions(), StatusFile(io.StringIO(), ""), None, 0.0, states)))
     except Exception as error:
         return f"{type(error).__name__}: {error}"
 

@@ -1,4 +1,4 @@
-"""Sharing changes no bit of any answer, whatever was solved before in the same process."""
+"""What is handed on to the next point changes no bit of any answer, whatever was solved before."""
 
 from __future__ import annotations
 
@@ -6,7 +6,11 @@ import random
 
 import pytest
 
-from mbla.process.sharing import Memory, sharing
+from mbla.solution.flow.gravity_step import Gravity, gravity_step
+from mbla.solution.flow.settings import RATIOS
+from mbla.solution.law.elastic_joints import ElasticJoints
+from mbla.solution.standing import standing
+from mbla.solution.standing.standing import MOST_STATES, StressFreeStates
 from mbla.sweeps.engine.child import PointRunner
 from mbla.sweeps.plan import Plain, Plan, Task
 from tests.sweeps.engine.sharing_decks import ARCH, DECKS, SMALL_ARCH, VARIED, Settings, solved
@@ -21,17 +25,16 @@ def in_random_order(points: list[tuple[str, Settings]], seed: int) -> list[tuple
     return order
 
 
-def differing(points: list[tuple[str, Settings]], memory: Memory) -> list[str]:
-    """Points whose answer with what ``memory`` keeps is another one, or another error, than from scratch."""
+def differing(points: list[tuple[str, Settings]], states: StressFreeStates) -> list[str]:
+    """Points whose answer with the states known is another one, or another error, than from scratch."""
     alone: dict[str, str] = {}
     different = []
     for deck, settings in points:
         name = f"{deck} {settings}"
         if name not in alone:
             alone[name] = solved(deck, settings)
-        with sharing(memory):
-            if solved(deck, settings) != alone[name]:
-                different.append(name)
+        if solved(deck, settings, states) != alone[name]:
+            different.append(name)
     return different
 
 
@@ -39,9 +42,9 @@ def differing(points: list[tuple[str, Settings]], memory: Memory) -> list[str]:
     "seed", [pytest.param(seed, marks=pytest.mark.trust if seed else pytest.mark.long) for seed in range(3)]
 )
 def test_every_kind_of_deck_and_setting_is_answered_as_from_scratch(seed: int) -> None:
-    memory = Memory()
-    assert not differing(in_random_order(POINTS, seed), memory)
-    assert set(memory.found) >= {"structure", "contacts", "standing"}
+    states = StressFreeStates()
+    assert not differing(in_random_order(POINTS, seed), states)
+    assert 1 < len(states.known) <= MOST_STATES
 
 
 @pytest.mark.long
@@ -53,11 +56,22 @@ def test_points_of_an_arch_are_answered_as_from_scratch() -> None:
     ]
     too_thin = (ARCH, {**SMALL_ARCH, "parameters.t": 0.02})
     points = [*friction_and_direction, too_thin, *reversed(friction_and_direction)]
-    memory = Memory()
-    assert not differing(points, memory)
-    assert memory.found["structure"] >= 6, memory
-    assert memory.found["contacts"] >= 6, memory
-    assert memory.found["standing"] >= 4, memory
+    assert not differing(points, StressFreeStates())
+
+
+def test_points_of_one_dead_load_have_one_state_of_the_stress_free_assembly(monkeypatch: pytest.MonkeyPatch) -> None:
+    steps: list[ElasticJoints] = []
+
+    def counted(joints: ElasticJoints) -> Gravity:
+        steps.append(joints)
+        return gravity_step(joints)
+
+    monkeypatch.setattr(standing, "gravity_step", counted)
+    states = StressFreeStates()
+    for direction in (*DIRECTIONS, *DIRECTIONS):
+        solved(ARCH, {**SMALL_ARCH, "load_cases.push_x.live.0.acceleration": direction}, states)
+    assert len(steps) == len(RATIOS) * len(states.known)
+    assert len(states.known) == len(DIRECTIONS), "in the plane of the arch, and out of it"
 
 
 def runner_of_an_arch() -> PointRunner:
