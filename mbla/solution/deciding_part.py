@@ -13,7 +13,7 @@ from mbla.program.program import Program
 from mbla.solution.flow.path_record import Stop
 from mbla.solution.law.interfaces import NONE, Interfaces
 from mbla.solution.mechanics import certificate_of, mechanics_of
-from mbla.solution.nonassociative.law_state import LawState
+from mbla.solution.nonassociative.collapse_state import CollapseState
 from mbla.solution.nonassociative.least_found import looks_lower
 from mbla.solution.nonassociative.locking import locking_forces
 from mbla.solution.part_context import PartContext
@@ -63,9 +63,9 @@ class SolvedParts:
     def mechanics(
         self,
         part: int,
-        state: LawState | None,
+        state: CollapseState | None,
         flow_rule: str,
-        collapse: Sequence[LawState | None] = (),
+        collapse: Sequence[CollapseState | None] = (),
         interfaces: Interfaces = NONE,
         below: Sequence[tuple[FloatArray, float] | None] = (),
     ) -> Mechanics | None:
@@ -104,7 +104,7 @@ def _load_factor(result: PartResult) -> float:
     return _factor(result.state if result.state is not None else result.associative.state)
 
 
-def _factor(state: LawState | None) -> float:
+def _factor(state: CollapseState | None) -> float:
     return np.inf if state is None else state.load_factor
 
 
@@ -124,8 +124,8 @@ def _without_load_factor(solved: SolvedParts, part: int) -> Solution:
     result, lock = solved.results[part], None
     associative = result.associative
     status, reason = associative.status, associative.reason
-    if status is Status.UNBOUNDED and result.sequence is not None:  # nothing is known by the flow rule of the analysis
-        status, reason = result.sequence.status, result.sequence.reason
+    if status is Status.UNBOUNDED and result.flow is not None:  # nothing is known by the flow rule of the analysis
+        status, reason = result.flow.status, result.flow.reason
     if status is Status.UNBOUNDED:
         lock = _known_lock(solved)
         lock = locking_forces(solved.parts, solved.context.settings, solved.context.log) if lock is None else lock
@@ -157,31 +157,30 @@ def _with_load_factor(solved: SolvedParts, first: int, first_associative: int) -
         ),
         lock=locking_forces(solved.parts, context.settings, context.log) if locked else None,
     )
-    if result.sequence is None:
+    if result.flow is None:
         return replace(solution, mechanics=solution.associative, remarks=tuple(remarks))
-    sequence, rule = result.sequence, analysis.flow_rule
-    searched = (
-        looks_lower(solved.parts[first], context.settings, context.interfaces) or solved.parts[first].facts.settles
-    )
+    flow, rule = result.flow, analysis.flow_rule
+    program = solved.parts[first]
+    searched = looks_lower(program, context.settings, context.interfaces) or program.facts.settling_support
     words = [] if searched or not context.settings.by_elastic_path else [OTHER_HISTORIES]
     words = [OF_INTERFACES] if words and context.interfaces is not NONE else words
     return replace(
         _with_torsion_of_parts(solution, solved),
-        mechanics=solved.mechanics(first, sequence.state, rule, [each.state for each in results], context.interfaces),
+        mechanics=solved.mechanics(first, flow.state, rule, [each.state for each in results], context.interfaces),
         least=solved.mechanics(first, result.least, rule),
         scheme=analysis.scheme if rule == "non_associative" else "",
-        remarks=(*sequence.remarks, *words, *remarks),
-        path=sequence.path,
-        path_end=sequence.path_end,
-        path_gain=sequence.path_gain,
-        path_last=sequence.path_last,
-        path_by_stiffness=least_by_stiffness(results, sequence.by_stiffness),
+        remarks=(*flow.remarks, *words, *remarks),
+        path=flow.path,
+        path_end=flow.path_end,
+        path_gain=flow.path_gain,
+        path_last=flow.path_last,
+        path_by_stiffness=least_by_stiffness(results, flow.by_stiffness),
     )
 
 
 def least_by_stiffness(results: Sequence[PartResult], rows: Sequence[PathByStiffness]) -> tuple[PathByStiffness, ...]:
     """With joints of other stiffnesses the least load factor of all parts, by what is known of the one that decides."""
-    known = [row for each in results if each.sequence is not None for row in each.sequence.by_stiffness]
+    known = [row for each in results if each.flow is not None for row in each.flow.by_stiffness]
     least = {row.ratio: np.min([own.load_factor for own in known if own.ratio == row.ratio]) for row in rows}
     return tuple(PathByStiffness(ratio, float(factor)) for ratio, factor in least.items())
 

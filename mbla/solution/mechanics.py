@@ -9,11 +9,11 @@ import numpy as np
 from mbla.arrays import FloatArray
 from mbla.program.program import Program
 from mbla.solution.contact_modes import contact_modes
-from mbla.solution.nonassociative.law_state import LawState, StepHistory
+from mbla.solution.nonassociative.collapse_state import CollapseState, StepHistory
 from mbla.solution.solution import Mechanics
 
 
-def mechanics_of(program: Program, state: LawState, flow_rule: str = "non_associative") -> Mechanics:
+def mechanics_of(program: Program, state: CollapseState, flow_rule: str = "non_associative") -> Mechanics:
     """Mechanics of the model from a state of a program, reduced or not, that was found by the given flow rule."""
     program, state = program.full, lifted(program, state)
     scaling = program.scaling
@@ -76,7 +76,7 @@ def forces_of(program: Program, forces: FloatArray) -> FloatArray:
     return program.full.scaling.forces(program.lift.contact_forces(forces))
 
 
-def lifted(program: Program, state: LawState) -> LawState:
+def lifted(program: Program, state: CollapseState) -> CollapseState:
     """The same state in the program of the full model."""
     lift, history = program.reduction, state.history
     if lift is None:

@@ -57,8 +57,8 @@ def with_flow_rule(result: PartResult, context: PartContext) -> PartResult:
     if associative.state is None:
         return _locked_by_dilatancy(result, context)
     remarks = (APART.format(associative.gap_words),) if associative.gap_words else ()
-    sequence = solve_nonassociative(program, associative, context.settings, context.log, context.interfaces)
-    return replace(result, sequence=sequence, remarks=remarks)
+    flow = solve_nonassociative(program, associative, context.settings, context.log, context.interfaces)
+    return replace(result, flow=flow, remarks=remarks)
 
 
 def _unloaded(program: Program, context: PartContext) -> AssociativeResult:
@@ -93,10 +93,10 @@ def _locked_by_dilatancy(result: PartResult, context: PartContext) -> PartResult
         return replace(result, associative=replace(associative, reason=NO_MECHANISM_AT_DILATANCY))
     if flow_rule == "non_associative" and no_mechanism(program, settings, log):
         return replace(result, associative=replace(associative, reason=LOCKED_BY_CONTACT))
-    sequence = solve_nonassociative(program, associative, settings, log, context.interfaces)
-    if sequence.status is Status.UNBOUNDED:
-        return replace(result, associative=replace(associative, reason=sequence.reason))
-    return replace(result, associative=replace(associative, reason=""), sequence=sequence)
+    flow = solve_nonassociative(program, associative, settings, log, context.interfaces)
+    if flow.status is Status.UNBOUNDED:
+        return replace(result, associative=replace(associative, reason=flow.reason))
+    return replace(result, associative=replace(associative, reason=""), flow=flow)
 
 
 def with_least(result: PartResult, context: PartContext) -> PartResult:
@@ -136,4 +136,4 @@ def with_standing(result: PartResult, context: PartContext) -> PartResult:
 
 def _has_figure(result: PartResult) -> bool:
     """Whether another flow rule than the associative one gave a load factor."""
-    return result.sequence is not None and result.state is not None and result.status in WITH_VALUE
+    return result.flow is not None and result.state is not None and result.status in WITH_VALUE

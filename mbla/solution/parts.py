@@ -17,7 +17,7 @@ from mbla.solution.cone_solvers.cone_solution import Log
 from mbla.solution.flow.resting_forces import resting_forces
 from mbla.solution.law.interfaces import NONE, Interfaces
 from mbla.solution.mechanics import lifted
-from mbla.solution.nonassociative.law_state import LawState, StepHistory
+from mbla.solution.nonassociative.collapse_state import CollapseState, StepHistory
 from mbla.solution.settings import SolverSettings
 
 SAME_FACTOR = 1e-9
@@ -36,13 +36,13 @@ combined to the load factor between the two, balance the loads and keep within t
 def assemble_parts(
     parts: Sequence[Program],
     part: int,
-    state: LawState,
+    state: CollapseState,
     settings: SolverSettings,
     log: Log,
-    collapse: Sequence[LawState | None] = (),
+    collapse: Sequence[CollapseState | None] = (),
     interfaces: Interfaces = NONE,
     below: Sequence[tuple[FloatArray, float] | None] = (),
-) -> tuple[Program, LawState] | None:
+) -> tuple[Program, CollapseState] | None:
     """A state of one part as one of the full model, the other parts at rest; None where these do not carry it.
 
     A single part is returned as it is.
@@ -53,9 +53,9 @@ def assemble_parts(
     """
     if len(parts) == 1:
         return parts[0], state
-    total: LawState | None = None
+    total: CollapseState | None = None
     for number, other in enumerate(parts):
-        own: LawState | None = state
+        own: CollapseState | None = state
         if number != part:
             known = collapse[number] if collapse else None, below[number] if below else None
             own = _between(other, *known, state.load_factor)
@@ -70,14 +70,14 @@ def assemble_parts(
     return parts[part].full, total
 
 
-def _remembered(program: Program, resting: LawState, beside: StepHistory) -> LawState:
+def _remembered(program: Program, resting: CollapseState, beside: StepHistory) -> CollapseState:
     """A part at rest beside one of elastic joints: it remembers its forces, and keeps them for it does not move."""
     stiff = np.ones(program.n_points)
     in_shear = float(np.median(beside.shear / beside.normal))
     return replace(resting, history=StepHistory(resting.forces, stiff, in_shear * stiff))
 
 
-def _together(one: LawState, other: LawState, deciding: LawState) -> LawState:
+def _together(one: CollapseState, other: CollapseState, deciding: CollapseState) -> CollapseState:
     """States of two parts of the full model, each nothing where the other is."""
     history = None
     if one.history is not None and other.history is not None:
@@ -90,7 +90,7 @@ def _together(one: LawState, other: LawState, deciding: LawState) -> LawState:
         )
     forces, velocities = one.forces + other.forces, one.velocities + other.velocities
     motions = _sum(one.motions, other.motions)
-    return LawState(forces, velocities, deciding.load_factor, deciding.residual, motions, history)
+    return CollapseState(forces, velocities, deciding.load_factor, deciding.residual, motions, history)
 
 
 def _sum(one: FloatArray | None, other: FloatArray | None) -> FloatArray | None:
@@ -101,8 +101,8 @@ def _sum(one: FloatArray | None, other: FloatArray | None) -> FloatArray | None:
 
 
 def _between(
-    program: Program, collapse: LawState | None, below: tuple[FloatArray, float] | None, load_factor: float
-) -> LawState | None:
+    program: Program, collapse: CollapseState | None, below: tuple[FloatArray, float] | None, load_factor: float
+) -> CollapseState | None:
     """Forces of a part with conditions on interfaces between two that are proved; None without such.
 
     Both keep within all conditions and balance the loads at their load factors, and so does what lies between.
@@ -110,7 +110,7 @@ def _between(
     if program.conditions is None or below is None:
         return None
     if not np.any(program.live_load):
-        return LawState(below[0], np.zeros_like(program.dead_load), load_factor, 0.0)
+        return CollapseState(below[0], np.zeros_like(program.dead_load), load_factor, 0.0)
     if collapse is None or not below[1] <= load_factor <= collapse.load_factor:
         return None
     return _without_motion(collapse, collapse.forces_between(below, load_factor), load_factor)
@@ -118,12 +118,12 @@ def _between(
 
 def _resting(
     program: Program,
-    collapse: LawState | None,
+    collapse: CollapseState | None,
     load_factor: float,
     settings: SolverSettings,
     log: Log,
     interfaces: Interfaces,
-) -> LawState | None:
+) -> CollapseState | None:
     """Forces of a part that does not move at a load factor; from its own collapse where that is near."""
     apart = np.inf if collapse is None else abs(collapse.load_factor - load_factor)
     if collapse is not None and apart <= SAME_FACTOR * abs(load_factor):
@@ -136,13 +136,13 @@ def _resting(
     return at_rest(program, load_factor, settings, log, interfaces)
 
 
-def _without_motion(collapse: LawState, forces: FloatArray, load_factor: float) -> LawState:
-    return LawState(forces, np.zeros_like(collapse.velocities), load_factor, collapse.residual)
+def _without_motion(collapse: CollapseState, forces: FloatArray, load_factor: float) -> CollapseState:
+    return CollapseState(forces, np.zeros_like(collapse.velocities), load_factor, collapse.residual)
 
 
 def at_rest(
     program: Program, load_factor: float, settings: SolverSettings, log: Log, interfaces: Interfaces = NONE
-) -> LawState | None:
+) -> CollapseState | None:
     """Forces that carry the load, no motion; None where the solver finds none.
 
     interfaces : of the model that have a law of their own
@@ -150,7 +150,7 @@ def at_rest(
     load = program.dead_load + load_factor * program.live_load
     at_rest = np.zeros_like(program.dead_load)
     if not np.any(load):
-        return LawState(np.zeros((program.n_points, program.components)), at_rest, load_factor, 0.0)
+        return CollapseState(np.zeros((program.n_points, program.components)), at_rest, load_factor, 0.0)
     alone = replace(program, dead_load=load, live_load=np.zeros_like(load))
     found = resting_forces(alone, interfaces, settings, log)
-    return None if found is None else LawState(found, at_rest, load_factor, 0.0)
+    return None if found is None else CollapseState(found, at_rest, load_factor, 0.0)

@@ -23,8 +23,8 @@ import numpy as np
 from mbla.program.reductions import reduce_program
 from mbla.program.reductions.steps import ReductionSwitches
 from mbla.solution.associative.solve_associative import solve_associative
+from mbla.solution.nonassociative.collapse_state import FlowResult
 from mbla.solution.nonassociative.elastic import solve_by_elastic_path
-from mbla.solution.nonassociative.law_state import SequenceResult
 from mbla.solution.settings import SolverSettings
 from tests.line import line_of
 from tests.solution.structures import barrel, dome, flat_arch, push, random_friction, room, wall, wedge
@@ -75,7 +75,7 @@ SHORT = (
 """Small ones for every run of the tests."""
 
 
-def solved_case(name: str) -> tuple[SequenceResult, float, float, float]:
+def solved_case(name: str) -> tuple[FlowResult, float, float, float]:
     """Result of a case, its load factor, the associative one, and seconds of the processor."""
     line = line_of(CASES[name]())
     started = time.process_time()

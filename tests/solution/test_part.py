@@ -45,7 +45,7 @@ def result_of(text: str, *overrides: str) -> PartResult:
 def test_livesleys_correction_needs_associative_forces() -> None:
     result = result_of(wedge(2.0), ALONG, "analysis.flow_rule=livesley")
     assert result.status is Status.UNBOUNDED
-    assert result.sequence is None
+    assert result.flow is None
 
 
 @pytest.mark.parametrize(("dilatancy", "below"), [(0, BELOW), (5, BELOW), (10, BELOW), (50, STEEP)])
@@ -64,7 +64,7 @@ def test_a_wedge_whose_dilatancy_locks_it_has_no_load_factor(dilatancy: float) -
     """Steps of the law end at factors of a million there, which are none."""
     result = result_of(wedge(2.0), ALONG, "analysis.flow_rule=dilatancy", f"joints.dry.dilatancy={dilatancy}")
     assert result.status is Status.UNBOUNDED
-    assert result.sequence is None
+    assert result.flow is None
     assert result.associative.reason == part.NO_MECHANISM_AT_DILATANCY
 
 

@@ -12,7 +12,7 @@ from mbla.program.reductions import reduce_program
 from mbla.program.reductions.steps import ReductionSwitches
 from mbla.solution import parts as whole
 from mbla.solution.associative.solve_associative import solve_associative
-from mbla.solution.nonassociative.law_state import LawState
+from mbla.solution.nonassociative.collapse_state import CollapseState
 from mbla.solution.parts import assemble_parts, at_rest
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Status
@@ -33,7 +33,7 @@ def two_blocks(*overrides: str) -> tuple[Program, ...]:
     return parts
 
 
-def collapse_of(part: Program) -> LawState:
+def collapse_of(part: Program) -> CollapseState:
     state = solve_associative(part, SETTINGS, lambda record: None).state
     assert state is not None
     return state
@@ -64,7 +64,7 @@ def test_a_part_of_which_no_lower_state_is_found_is_looked_at_where_it_is(monkey
     ending = replace(collapse_of(parts[1]), load_factor=state.load_factor * 1.0001)
     asked: list[float] = []
 
-    def forces_at(program: Program, load_factor: float, *others: object) -> LawState | None:
+    def forces_at(program: Program, load_factor: float, *others: object) -> CollapseState | None:
         asked.append(load_factor / state.load_factor)
         return None if len(asked) == 1 else replace(ending, load_factor=load_factor)
 

@@ -2,7 +2,7 @@
 
 With associative flow the static and the kinematic theorem hold, so that the optimum is unique. What the solver returns
 is not trusted but repaired (``bounds``): forces that balance the loads prove the factor from below,
-compatible velocities from above (:mod:`mbla.solution.associative.proved_answer`).
+compatible velocities from above (:mod:`mbla.solution.associative.proved_solution`).
 
 The load factors under which the structure is in equilibrium form an interval. The dead load alone is carried if there
 is equilibrium at a load factor of zero or below besides that at collapse. Where it is asked as well whether the
@@ -21,10 +21,10 @@ from mbla.arrays import FloatArray
 from mbla.program.program import Program
 from mbla.program.static import gravity_form
 from mbla.solution.associative.associative_form import AssociativeForm, associative_form
-from mbla.solution.associative.proved_answer import (
+from mbla.solution.associative.proved_solution import (
     STANDS_MARGIN,
     AssociativeRun,
-    ProvedAnswer,
+    ProvedSolution,
     proved_certificate,
     says_it_falls,
     solve_until_proved,
@@ -32,7 +32,7 @@ from mbla.solution.associative.proved_answer import (
 )
 from mbla.solution.cone_solvers.choice import cone_solver
 from mbla.solution.cone_solvers.cone_solution import ConeSolution, Log
-from mbla.solution.nonassociative.law_state import LawState, law_state
+from mbla.solution.nonassociative.collapse_state import CollapseState, collapse_state
 from mbla.solution.proof.bounds import falling_motion
 from mbla.solution.proof.static_repair import repaired_forces
 from mbla.solution.settings import SolverSettings
@@ -60,7 +60,7 @@ class AssociativeResult:
     """
 
     status: Status
-    state: LawState | None
+    state: CollapseState | None
     certificate: FloatArray | None
     reason: str
     programs: tuple[ProgramRecord, ...]
@@ -103,7 +103,7 @@ def solve_associative(
         return _with_dead_load(run, answer, proved=True)
     if not stress_free or settings.deadline is not None:
         # where a support gives way, forces at any load factor carry the dead load, with another reaction
-        shown = program.facts.settles and answer.gap is not None and np.isfinite(answer.gap.static)
+        shown = program.facts.settling_support and answer.gap is not None and np.isfinite(answer.gap.static)
         return _with_dead_load(run, answer, proved=bool(shown))
     state = stress_free_state(program, states)
     result = _with_dead_load(run, answer, proved=_proves(run, state))
@@ -116,7 +116,7 @@ def _proves(run: AssociativeRun, state: StressFree) -> bool:
         return False
     if run.program.conditions is not None:  # which these forces need not fulfil
         return False
-    if run.program.facts.settles:  # with the reaction that it has while it is held
+    if run.program.facts.settling_support:  # with the reaction that it has while it is held
         return _carrying(run, state.rest.forces, state.rest.load_factor) is not None
     forces = state.rest.forces
     return _carried_alone(run.program.without_live_load(), forces) or _carrying(run, forces, 0.0) is not None
@@ -127,7 +127,7 @@ def _carried_alone(program: Program, forces: FloatArray) -> bool:
     return repaired_forces(program, forces, 0.0) is not None
 
 
-def _with_dead_load(run: AssociativeRun, answer: ProvedAnswer, *, proved: bool) -> AssociativeResult:
+def _with_dead_load(run: AssociativeRun, answer: ProvedSolution, *, proved: bool) -> AssociativeResult:
     """The result, once it is known that the dead load alone is carried.
 
     proved : it is known already
@@ -156,7 +156,7 @@ def _with_dead_load(run: AssociativeRun, answer: ProvedAnswer, *, proved: bool) 
     return replace(_with_load_factor(run, answer), below=below)
 
 
-def _lock(run: AssociativeRun, answer: ProvedAnswer) -> FloatArray | None:
+def _lock(run: AssociativeRun, answer: ProvedSolution) -> FloatArray | None:
     """Forces of the ray that proves that there is no mechanism, with conditions on interfaces; None without."""
     if run.program.conditions is None:
         return None
@@ -180,7 +180,7 @@ def _locked_both_ways(run: AssociativeRun, settings: SolverSettings) -> Associat
     return _undecided(run, solution) if certificate is None else _no_equilibrium(run, certificate)
 
 
-def _with_load_factor(run: AssociativeRun, answer: ProvedAnswer) -> AssociativeResult:
+def _with_load_factor(run: AssociativeRun, answer: ProvedSolution) -> AssociativeResult:
     gap, status, reason, asked = answer.gap, Status.SOLVED, "", None
     assert gap is not None
     if not gap.gap <= GAP_TOLERANCE:
@@ -196,10 +196,10 @@ def _with_load_factor(run: AssociativeRun, answer: ProvedAnswer) -> AssociativeR
         )
     program, conditions = run.program, run.program.conditions
     if conditions is None:
-        state = law_state(program, program.limits.friction, gap.forces, gap.velocities, gap.load_factor)
+        state = collapse_state(program, program.limits.friction, gap.forces, gap.velocities, gap.load_factor)
     else:
         blocks, unknowns = np.split(gap.velocities, [len(program.dead_load)])
-        state = LawState(gap.forces, blocks, gap.load_factor, np.nan, conditions.moved(unknowns))
+        state = CollapseState(gap.forces, blocks, gap.load_factor, np.nan, conditions.moved(unknowns))
     solver = answer.solution.solver.lower()
     return AssociativeResult(status, state, None, reason, tuple(run.records), solver, asked, reason)
 

@@ -128,7 +128,7 @@ def is_too_rough(path: ElasticPath, rest: AtRest, measure: Measure) -> bool:
     it was solved.
     """
     joints, counted = rest.joints, [step.load_factor for step in path.steps if step.counted]
-    if joints.program.facts.settles or rest.twists or joints.brittle.any():
+    if joints.program.facts.settling_support or rest.twists or joints.brittle.any():
         return False
     changed = abs(path.load_factor - max(counted, default=0.0)) > ROUGH * path.load_factor
     return path.peak is None or changed or path.load_factor < LOW * measure.load_factor

@@ -28,8 +28,8 @@ from mbla.solution.law.exact_law import forces_by_law
 from mbla.solution.law.joint_equations import JointStep, residual_of
 from mbla.solution.law.joint_step import direction_of, length_of
 from mbla.solution.law.newton import by_newton
+from mbla.solution.nonassociative.collapse_state import CollapseState
 from mbla.solution.nonassociative.imbalance import imbalance
-from mbla.solution.nonassociative.law_state import LawState
 
 NEWTON, NEAR = 20, (1e-3, 1e-5, 1e-8)
 """Iterations of Newton's method at most, and products over n₀² with whose states it begins, where it came to nothing
@@ -106,7 +106,7 @@ def gravity_step(joints: ElasticJoints, least_force: float = 0.0, gaps: FloatArr
     """
     program, n = joints.program, joints.program.n_points
     force = float(np.abs(program.dead_load).sum()) / max(n, 1) or least_force or 1.0
-    held = program.facts.settles and bool(np.any(program.live_load))
+    held = program.facts.settling_support and bool(np.any(program.live_load))
     fresh = Memory.stress_free(joints, gaps)
     step = JointStep(joints, fresh, 1.0, driven=held, work=0.0, held=WEAKER * HELD[0] * joints.matrix.size)
     exact, spent = _of_points(joints, least_force, gaps) if joints.laws else _exactly(step)
@@ -196,7 +196,7 @@ def _is_carried(joints: ElasticJoints, state: StepState) -> bool:
         return True
     if joints.laws:
         return float(np.abs(joints.unbalanced(state)).max(initial=0.0)) <= STANDS
-    return imbalance(joints.program, LawState(state.forces, state.u, state.factor, 0.0)) <= CARRIED
+    return imbalance(joints.program, CollapseState(state.forces, state.u, state.factor, 0.0)) <= CARRIED
 
 
 def _solved(

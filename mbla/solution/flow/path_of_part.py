@@ -182,7 +182,7 @@ def path_by(
     ends = _ends_at_rest(rest, program, associative)
     if ends is not None:
         return PathOfPart(ends, rest=rest, factorizations=rest.gravity.steps)
-    if program.facts.settles:
+    if program.facts.settling_support:
         rest, scale = as_it_gives_way(rest, (program if part is None else part.program).own_unit)
     elif associative is None:
         return _record(measured_by_itself(rest, scale), rest)
@@ -206,7 +206,7 @@ def _at_rest(
 ) -> AtRest:
     """Under the dead load."""
     program, gaps = joints.program, gaps if part is None else gaps[part.points]
-    if program.facts.settles or not np.any(program.dead_load):  # the live load counts
+    if program.facts.settling_support or not np.any(program.dead_load):  # the live load counts
         return AtRest(joints, gravity_step(joints, mean_live_load(program, scale), gaps), settings, part)
     return AtRest(joints, gravity_step(joints.without_live_load, gaps=gaps), settings, part)
 
@@ -219,7 +219,7 @@ def _ends_at_rest(rest: AtRest, program: Program, associative: float | None) -> 
         return Stop.DOES_NOT_STAND
     if not np.any(program.live_load):
         return Stop.UNLOADED
-    if associative is not None and not program.facts.settles and associative <= NEGLIGIBLE * program.own_unit:
+    if associative is not None and not program.facts.settling_support and associative <= NEGLIGIBLE * program.own_unit:
         return Stop.AT_ONCE
     return None
 

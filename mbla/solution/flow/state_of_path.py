@@ -20,7 +20,7 @@ from mbla.solution.flow.path_of_part import WHAT_MOVES, Extent, PathOfPart
 from mbla.solution.flow.peak_step import PeakStep
 from mbla.solution.flow.resting_forces import resting_forces, rows_not_carried
 from mbla.solution.law.interfaces import NONE, Interfaces
-from mbla.solution.nonassociative.law_state import LawState, StepHistory, law_state
+from mbla.solution.nonassociative.collapse_state import CollapseState, StepHistory, collapse_state
 from mbla.solution.settings import SolverSettings
 from mbla.solution.standing.standing import least_forces
 
@@ -32,9 +32,9 @@ of 60 courses one of 2,236 blocks that rest did not."""
 def path_with_state(
     program: Program,
     along: Callable[[Extent], PathOfPart],
-    state_on: Callable[[PathOfPart], LawState | None],
+    state_on: Callable[[PathOfPart], CollapseState | None],
     interfaces: Interfaces,
-) -> tuple[PathOfPart, LawState | None]:
+) -> tuple[PathOfPart, CollapseState | None]:
     """The path of what moves, with what does not carry what is passed on to it, or of the whole; and its state.
 
     along    : the path of more or less
@@ -56,7 +56,7 @@ def path_with_state(
 
 def state_of_path(
     program: Program, found: PathOfPart, settings: SolverSettings, log: Log, interfaces: Interfaces = NONE
-) -> LawState | None:
+) -> CollapseState | None:
     """The state, with the misfit of the law as its residual.
 
     interfaces : of the model that have a law of their own
@@ -74,7 +74,7 @@ def state_of_path(
         if carried is None:
             return None
         forces[beside.points] = history.remembered[beside.points] = carried
-    return LawState(forces, velocities, rest.begins + peak.state.factor, peak.misfit, motions, history)
+    return CollapseState(forces, velocities, rest.begins + peak.state.factor, peak.misfit, motions, history)
 
 
 def _not_carried(program: Program, found: PathOfPart, interfaces: Interfaces) -> BoolArray | None:
@@ -86,8 +86,8 @@ def _not_carried(program: Program, found: PathOfPart, interfaces: Interfaces) ->
 
 
 def state_at_once(
-    program: Program, associative: LawState | None, slope: FloatArray, settings: SolverSettings, log: Log
-) -> LawState | None:
+    program: Program, associative: CollapseState | None, slope: FloatArray, settings: SolverSettings, log: Log
+) -> CollapseState | None:
     """The state of what moves under any live load, by the associative mechanism; None without, or without forces.
 
     slope : (n_points,) tangent of the dilatancy angle
@@ -98,7 +98,7 @@ def state_at_once(
     forces = least_forces(program, settings, log) if np.any(program.dead_load) else none
     if isinstance(forces, ConeSolution):
         return None
-    return law_state(program, slope, forces, associative.velocities, 0.0)
+    return collapse_state(program, slope, forces, associative.velocities, 0.0)
 
 
 def _of_followed(program: Program, peak: PeakStep, rest: AtRest) -> tuple[FloatArray, StepHistory, FloatArray]:

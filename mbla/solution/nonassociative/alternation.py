@@ -35,7 +35,7 @@ from mbla.program.program import Program
 from mbla.program.yield_conditions import YieldLimits
 from mbla.solution.cone_solvers.choice import cone_solver
 from mbla.solution.cone_solvers.cone_solution import ConeSolution, ConeSolver, Log
-from mbla.solution.nonassociative.law_state import LawState, law_state
+from mbla.solution.nonassociative.collapse_state import CollapseState, collapse_state
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import ProgramRecord, Status
 
@@ -86,7 +86,7 @@ class Alternation:
         """The program of the motion against given friction."""
         return kinematic_form(self.program, self._lagged(np.zeros(self.program.n_points)), reduce_dry=False)
 
-    def states(self, normal: FloatArray, tilts: Iterable[float] = repeat(0.0)) -> Iterator[LawState]:
+    def states(self, normal: FloatArray, tilts: Iterable[float] = repeat(0.0)) -> Iterator[CollapseState]:
         """States of pairs of programs, one for each tilt, or until one of them has no solution.
 
         normal : (n_points,) normal forces to start from
@@ -94,7 +94,9 @@ class Alternation:
         """
         return self.states_from(self.motion_for(normal), tilts)
 
-    def states_from(self, velocities: FloatArray | None, tilts: Iterable[float] = repeat(0.0)) -> Iterator[LawState]:
+    def states_from(
+        self, velocities: FloatArray | None, tilts: Iterable[float] = repeat(0.0)
+    ) -> Iterator[CollapseState]:
         """The same from velocities, (n_rows,); none from None."""
         for tilt in tilts:
             found = None if velocities is None else self.pair(velocities, tilt)
@@ -103,7 +105,7 @@ class Alternation:
             state, velocities = found
             yield state
 
-    def pair(self, velocities: FloatArray, tilt: float) -> tuple[LawState, FloatArray | None] | None:
+    def pair(self, velocities: FloatArray, tilt: float) -> tuple[CollapseState, FloatArray | None] | None:
         """The state of the forces for velocities, (n_rows,), and the velocities for these forces, if there are any.
 
         None without forces.
@@ -116,9 +118,9 @@ class Alternation:
         motions = (velocities,) if after is None else (velocities, after)
         return min((self.state(forces, u, load_factor) for u in motions), key=lambda state: state.residual), after
 
-    def state(self, forces: FloatArray, velocities: FloatArray, load_factor: float) -> LawState:
+    def state(self, forces: FloatArray, velocities: FloatArray, load_factor: float) -> CollapseState:
         """The state of forces, (n_points, components), and velocities, (n_rows,), with its residual."""
-        return law_state(self.program, self.slope, forces, velocities, load_factor)
+        return collapse_state(self.program, self.slope, forces, velocities, load_factor)
 
     def motion_for(self, normal: FloatArray) -> FloatArray | None:
         """Velocities, (n_rows,), against the friction of normal forces, (n_points,); None without a solution."""

@@ -28,8 +28,8 @@ from mbla.solution.nonassociative.by_stiffness import (
     may_hang_on_stiffness,
     paths_beside,
 )
-from mbla.solution.nonassociative.law_state import LawState, SequenceResult
-from mbla.solution.nonassociative.locking import lasting_limits
+from mbla.solution.nonassociative.collapse_state import CollapseState, FlowResult
+from mbla.solution.nonassociative.locking import recession_cone
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import WITH_VALUE, IterationRecord, PathPoint, ProgramRecord, Status
 from mbla.solution.standing.standing import stress_free_state
@@ -43,7 +43,7 @@ def solve_by_elastic_path(
     settings: SolverSettings,
     log: Log,
     interfaces: Interfaces = NONE,
-) -> SequenceResult:
+) -> FlowResult:
     """The state at the greatest load of the path.
 
     slope      : (n_points,) tangent of the angle by which joints lift as they slide
@@ -65,7 +65,7 @@ def solve_by_elastic_path(
         records.append(_record(number, path, live, time.perf_counter() - started))
         return path
 
-    def state_on(path: PathOfPart) -> LawState | None:
+    def state_on(path: PathOfPart) -> CollapseState | None:
         if path.stop is Stop.AT_ONCE:
             return state_at_once(program, associative.state, slope, settings, log)
         return state_of_path(program, path, settings, log, interfaces)
@@ -94,7 +94,7 @@ def solve_by_elastic_path(
     value = np.nan if state is None else program.scaling.load_factor(state.load_factor)
     if status is Status.SOLVED and found.gains(UNENDED, above):
         status, reason = Status.APPROXIMATE, UNENDED_PATH.format(f"{value:.6g}", 100.0 * found.gain)
-    return SequenceResult(
+    return FlowResult(
         status,
         state,
         reason,
@@ -123,16 +123,16 @@ def _carries_the_live_load(program: Program) -> bool:
 
     Where a load factor is so large that the dead load is nothing beside it, that is what is left of it.
     """
-    alone = replace(program, dead_load=program.live_load, limits=lasting_limits(program.limits))
+    alone = replace(program, dead_load=program.live_load, limits=recession_cone(program.limits))
     return stress_free_state(alone).rest is not None
 
 
-def _at_limit(program: Program, found: PathOfPart, state: LawState, interfaces: Interfaces) -> bool:
+def _at_limit(program: Program, found: PathOfPart, state: CollapseState, interfaces: Interfaces) -> bool:
     """Whether a load factor is next to nothing beside what its state misses of the law of interfaces.
 
     In shares of the dead load. Without a path, what interfaces crush as the structure moves at once is not known.
     """
-    if interfaces is NONE or program.facts.settles:
+    if interfaces is NONE or program.facts.settling_support:
         return False
     return found.stop is Stop.AT_ONCE or state.residual * program.dead_over_live > AT_MOST * abs(state.load_factor)
 
@@ -152,7 +152,7 @@ def _curve(program: Program, found: PathOfPart) -> tuple[PathPoint, ...]:
     )
 
 
-def _claim(found: PathOfPart, state: LawState | None, live: float) -> tuple[Status, str]:
+def _claim(found: PathOfPart, state: CollapseState | None, live: float) -> tuple[Status, str]:
     """Status and reason, in words, of what was found."""
     if found.stop in WITHOUT:
         status = Status.UNBOUNDED if found.stop is Stop.UNBOUNDED else Status.NOT_VERIFIED

@@ -5,14 +5,14 @@ from __future__ import annotations
 import numpy as np
 
 from mbla.program.program import Program
-from mbla.solution.nonassociative.law_state import LawState
+from mbla.solution.nonassociative.collapse_state import CollapseState
 from mbla.solution.proof.static_repair import carried_loads
 
 NOTHING = 1e-6
 """What a block without weight carries, over the mean load, that is rounding."""
 
 
-def imbalance(program: Program, state: LawState) -> float:
+def imbalance(program: Program, state: CollapseState) -> float:
     """Largest unbalanced force of a block over what it has to balance, at most the mean load of a block.
 
     Of guided blocks only what does work in the motions that their guides allow counts.

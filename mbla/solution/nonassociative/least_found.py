@@ -20,7 +20,7 @@ from mbla.program.program import Program
 from mbla.solution.associative.solve_associative import AssociativeResult
 from mbla.solution.cone_solvers.cone_solution import Log
 from mbla.solution.law.interfaces import NONE, Interfaces
-from mbla.solution.nonassociative.law_state import LawState
+from mbla.solution.nonassociative.collapse_state import CollapseState
 from mbla.solution.nonassociative.polished import polished
 from mbla.solution.nonassociative.search import Search
 from mbla.solution.settings import SolverSettings
@@ -39,19 +39,19 @@ def looks_lower(program: Program, settings: SolverSettings, interfaces: Interfac
     interfaces : that have a law of their own
     """
     in_question = program.components == 2 or settings.analysis.search is not None
-    by_points = interfaces is NONE and not program.facts.settles
+    by_points = interfaces is NONE and not program.facts.settling_support
     return settings.by_elastic_path and settings.search > 0.0 and in_question and by_points
 
 
 def least_found(
     program: Program,
     slope: FloatArray,
-    path: LawState,
+    path: CollapseState,
     associative: AssociativeResult,
     settings: SolverSettings,
     log: Log,
     records: list[ProgramRecord],
-) -> LawState | None:
+) -> CollapseState | None:
     """The state of the least load factor that was found; None where the search came to none.
 
     slope   : (n_points,) tangent of the dilatancy angle

@@ -27,7 +27,7 @@ from mbla.program.yield_conditions import YieldLimits
 from mbla.solution.associative.solve_associative import AssociativeResult
 from mbla.solution.cone_solvers.choice import cone_solver
 from mbla.solution.cone_solvers.cone_solution import ConeSolution, Log
-from mbla.solution.nonassociative.law_state import LawState, SequenceResult, broken_off, law_state
+from mbla.solution.nonassociative.collapse_state import CollapseState, FlowResult, broken_off, collapse_state
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import WITH_VALUE, ProgramRecord, Status
 from mbla.solution.thresholds import APPROXIMATE_RESIDUAL, SOLVED_RESIDUAL
@@ -36,9 +36,7 @@ NO_LIMIT = 1e-9
 """Limit of shear, in mean block loads, below which an open point has none: its normal force is the solver's noise."""
 
 
-def solve_livesley(
-    program: Program, associative: AssociativeResult, settings: SolverSettings, log: Log
-) -> SequenceResult:
+def solve_livesley(program: Program, associative: AssociativeResult, settings: SolverSettings, log: Log) -> FlowResult:
     """The second program, from a solved associative one.
 
     The state has the corrected mechanism, with the associative forces and load factor or with those of the second
@@ -56,13 +54,13 @@ def solve_livesley(
         return broken_off(solution, records)
     velocities = form.velocities(solution.x)
     candidates = (
-        law_state(program, 0.0, before.forces, velocities, before.load_factor),
-        law_state(program, 0.0, form.contact_forces(solution.z), velocities, solution.objective),
+        collapse_state(program, 0.0, before.forces, velocities, before.load_factor),
+        collapse_state(program, 0.0, form.contact_forces(solution.z), velocities, solution.objective),
     )
     state = min(candidates, key=lambda found: found.residual)
     status, reason = _claim(state)
     remark = _remark(before.load_factor * live, solution.objective * live, state)
-    return SequenceResult(status, state, reason, records, remarks=(remark,))
+    return FlowResult(status, state, reason, records, remarks=(remark,))
 
 
 def _prism(limits: YieldLimits, normal: FloatArray) -> YieldLimits:
@@ -71,14 +69,14 @@ def _prism(limits: YieldLimits, normal: FloatArray) -> YieldLimits:
     return replace(limits, friction=np.zeros_like(limit), cohesion=np.where(limit > NO_LIMIT, limit, 0.0))
 
 
-def _claim(state: LawState) -> tuple[Status, str]:
+def _claim(state: CollapseState) -> tuple[Status, str]:
     reason = f"one correction violates the joint law without dilatancy: residual {state.residual:.2g}"
     if state.residual <= SOLVED_RESIDUAL:
         return Status.SOLVED, ""
     return (Status.APPROXIMATE if state.residual <= APPROXIMATE_RESIDUAL else Status.NOT_VERIFIED), reason
 
 
-def _remark(before: float, after: float, state: LawState) -> Message:
+def _remark(before: float, after: float, state: CollapseState) -> Message:
     figures = f"Livesley's correction changes the load factor from {before:.6g} to {after:.6g}"
     if state.residual <= SOLVED_RESIDUAL:
         return Message("livesley-confirms", f"{figures}: the associative forces bear a mechanism without dilatancy too")

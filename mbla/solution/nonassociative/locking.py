@@ -80,7 +80,7 @@ def _lasting(program: Program) -> Program:
 
 def _least_forces(program: Program, share: float, settings: SolverSettings, log: Log) -> FloatArray | None:
     """Least forces, (n_points, components), with a share of the friction."""
-    lasting = lasting_limits(program.limits)
+    lasting = recession_cone(program.limits)
     inside = replace(program, dead_load=program.live_load, limits=replace(lasting, friction=share * lasting.friction))
     found = least_forces(_without_points(inside, np.isinf(lasting.compression)), settings, log, [])
     if isinstance(found, ConeSolution):
@@ -92,7 +92,7 @@ def _least_forces(program: Program, share: float, settings: SolverSettings, log:
 
 def _in_balance(whole: Program, forces: FloatArray) -> FloatArray | None:
     """Forces that balance the live load exactly, from some that nearly do, (n_points, 3)."""
-    lasting = lasting_limits(whole.limits)
+    lasting = recession_cone(whole.limits)
     alone = replace(whole, dead_load=np.zeros_like(whole.dead_load), limits=lasting)
     size = np.linalg.norm(forces, axis=1)
     for share in NEGLIGIBLE:
@@ -112,7 +112,7 @@ def _without_points(program: Program, kept: FloatArray) -> Program:
     return replace(program, equilibrium_matrix=program.equilibrium_matrix[:, columns], limits=limits)
 
 
-def lasting_limits(limits: YieldLimits) -> YieldLimits:
+def recession_cone(limits: YieldLimits) -> YieldLimits:
     """What is left of the limits at forces that grow for ever: friction, where the joint cannot crush."""
     none = np.zeros_like(limits.friction)
     lasting = np.where(np.isfinite(limits.compression), 0.0, np.inf)

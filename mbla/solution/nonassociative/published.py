@@ -33,7 +33,7 @@ from mbla.program.yield_conditions import YieldLimits
 from mbla.solution.associative.solve_associative import AssociativeResult
 from mbla.solution.cone_solvers.choice import cone_solver
 from mbla.solution.cone_solvers.cone_solution import ConeSolution, Log
-from mbla.solution.nonassociative.law_state import LawState, SequenceResult, broken_off, law_state
+from mbla.solution.nonassociative.collapse_state import CollapseState, FlowResult, broken_off, collapse_state
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import WITH_VALUE, ProgramRecord, Status
 
@@ -56,7 +56,7 @@ def solve_published(
     dilatancy: FloatArray,
     settings: SolverSettings,
     log: Log,
-) -> SequenceResult:
+) -> FlowResult:
     """Run the sequence from a solved associative program.
 
     dilatancy : (n_points,) tangent of the dilatancy angle, zero for non-associative flow
@@ -85,18 +85,18 @@ def solve_published(
         recent = [*recent, (forces, factors[-1])][-SPREAD_PROGRAMS:]
         now = min(_states(program, slope, recent, velocities), key=lambda state: state.residual)
         if max(change, now.residual) <= scheme.tolerance and solution.status is Status.SOLVED:
-            return SequenceResult(Status.SOLVED, now, "", tuple(records))
+            return FlowResult(Status.SOLVED, now, "", tuple(records))
         best = now if best is None or now.residual < best.residual else best
         turned_back = len(factors) > 2 and (factors[-1] - factors[-2]) * (factors[-2] - factors[-3]) < 0
         if turned_back and change > scheme.tolerance:
             weight *= DAMPING
     assert best is not None  # there is at least one program
     reason = _unsettled(program, scheme, factors, best, solution)
-    return SequenceResult(Status.APPROXIMATE, best, reason, tuple(records))
+    return FlowResult(Status.APPROXIMATE, best, reason, tuple(records))
 
 
 def _unsettled(
-    program: Program, scheme: PublishedScheme, factors: list[float], best: LawState, solution: ConeSolution
+    program: Program, scheme: PublishedScheme, factors: list[float], best: CollapseState, solution: ConeSolution
 ) -> str:
     """Why a sequence that ran to its end is no answer, in words; ``solution`` is that of its last program."""
     last = [program.scaling.load_factor(factor) for factor in factors[-SPREAD_PROGRAMS:]]
@@ -117,17 +117,17 @@ def _fictitious(limits: YieldLimits, slope: FloatArray, normal: FloatArray) -> Y
 
 def _states(
     program: Program, slope: FloatArray, recent: list[tuple[FloatArray, float]], velocities: FloatArray
-) -> list[LawState]:
+) -> list[CollapseState]:
     """The newest forces, and means over the last 2, 3, ... programs: each mean balances the mean load factor."""
     states = []
     for count in range(1, len(recent) + 1):
         forces = np.mean([forces for forces, _ in recent[-count:]], axis=0)
         factor = float(np.mean([factor for _, factor in recent[-count:]]))
-        states.append(law_state(program, slope, forces, velocities, factor))
+        states.append(collapse_state(program, slope, forces, velocities, factor))
     return states
 
 
-def _broken_off(best: LawState | None, solution: ConeSolution, records: list[ProgramRecord]) -> SequenceResult:
+def _broken_off(best: CollapseState | None, solution: ConeSolution, records: list[ProgramRecord]) -> FlowResult:
     number = len(records) + 1
     records.append(solution.record(number, "published", np.nan, np.nan))
     if solution.status not in (Status.NO_EQUILIBRIUM, Status.UNBOUNDED):

@@ -15,8 +15,8 @@ from mbla.program.program import Program
 from mbla.solution.associative.solve_associative import AssociativeResult
 from mbla.solution.cone_solvers.cone_solution import Log
 from mbla.solution.law.interfaces import NONE, Interfaces
+from mbla.solution.nonassociative.collapse_state import FlowResult
 from mbla.solution.nonassociative.elastic import solve_by_elastic_path
-from mbla.solution.nonassociative.law_state import SequenceResult
 from mbla.solution.settings import SolverSettings
 
 NOT_PUBLISHED = Message(
@@ -32,7 +32,7 @@ def solve_nonassociative(
     settings: SolverSettings,
     log: Log,
     interfaces: Interfaces = NONE,
-) -> SequenceResult:
+) -> FlowResult:
     """The sequence that the flow rule and the scheme of the analysis ask for.
 
     interfaces : of the model that have a law of their own in the path of elastic joints
@@ -53,7 +53,7 @@ def slope_of(program: Program, flow_rule: str) -> FloatArray:
     return program.limits.dilatancy if flow_rule == "dilatancy" else np.zeros(program.n_points)
 
 
-def _published(program: Program, associative: AssociativeResult, settings: SolverSettings, log: Log) -> SequenceResult:
+def _published(program: Program, associative: AssociativeResult, settings: SolverSettings, log: Log) -> FlowResult:
     """The published procedure starts from associative forces; where there are none the path has to do."""
     none = np.zeros(program.n_points)
     if associative.state is None:

@@ -15,8 +15,8 @@ from mbla.arrays import FloatArray
 from mbla.program.program import Program
 from mbla.solution.cone_solvers.cone_solution import Log
 from mbla.solution.nonassociative.alternation import Alternation
+from mbla.solution.nonassociative.collapse_state import CollapseState
 from mbla.solution.nonassociative.imbalance import imbalance
-from mbla.solution.nonassociative.law_state import LawState
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import ProgramRecord
 from mbla.solution.thresholds import EXACT_RESIDUAL, NEAR_ZERO, SOLVED_RESIDUAL
@@ -59,10 +59,10 @@ NEAR_BEST = 10.0
 """States within so many times the least residual count as fitting, where none fits the law exactly."""
 
 
-def is_needless(program: Program, state: LawState, most: float) -> bool:
+def is_zero_load_mechanism(program: Program, state: CollapseState, most: float) -> bool:
     """Whether the mechanism of a state needs no live load, though the associative load factor ``most`` is greater."""
     needless = NEEDLESS * program.moved_over_live(state.velocities)
-    return state.load_factor <= needless < most and not program.facts.settles
+    return state.load_factor <= needless < most and not program.facts.settling_support
 
 
 @dataclass
@@ -78,7 +78,7 @@ class Search:
     log: Log
     records: list[ProgramRecord]
     most: float = np.inf
-    found: list[LawState] = field(default_factory=list)
+    found: list[CollapseState] = field(default_factory=list)
     limit: float = field(init=False)
     alternation: Alternation = field(init=False)
 
@@ -124,7 +124,7 @@ class Search:
         return min((state.residual for state in self.found), default=np.inf)
 
     @property
-    def answer(self) -> LawState | None:
+    def answer(self) -> CollapseState | None:
         """The state of the least load factor among those that fit the law, or do so nearly as well as the best.
 
         The residual is a power, of second order in how far a state is from one of the law, and the load factor is of
@@ -139,11 +139,11 @@ class Search:
         same = lowest.load_factor + np.sqrt(lowest.residual) * abs(lowest.load_factor)
         return min((state for state in fitting if state.load_factor <= same), key=lambda state: state.residual)
 
-    def keep(self, state: LawState) -> None:
+    def keep(self, state: CollapseState) -> None:
         """Remember a state, unless its mechanism needs no live load or a light block is not in balance."""
         if not self.program.guided and imbalance(self.program, state) > UNBALANCED:
             return
-        if not is_needless(self.program, state, self.most):
+        if not is_zero_load_mechanism(self.program, state, self.most):
             self.found.append(state)
 
     def approach(self, normal: FloatArray, velocities: FloatArray | None = None) -> FloatArray:

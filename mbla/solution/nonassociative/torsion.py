@@ -18,7 +18,7 @@ from mbla.solution.flow.path_record import Stop
 from mbla.solution.flow.settings import PathSettings
 from mbla.solution.flow.state_of_path import path_with_state, state_of_path
 from mbla.solution.law.interfaces import Interfaces
-from mbla.solution.nonassociative.law_state import LawState
+from mbla.solution.nonassociative.collapse_state import CollapseState
 from mbla.solution.settings import SolverSettings
 
 
@@ -27,7 +27,7 @@ class WithTorsion:
     """Why the path of a part with torsion of uniform pressure ended, and its state; None where it has none."""
 
     stop: Stop
-    state: LawState | None
+    state: CollapseState | None
 
 
 def solve_with_torsion(

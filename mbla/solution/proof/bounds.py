@@ -1,7 +1,7 @@
 """Bounds of the associative load factor that forces and velocities prove once they are repaired.
 
 They are repaired in ``static_repair`` and ``kinematic_repair``. Nothing there needs to be trusted: what the repaired
-forces and velocities prove is evaluated by ``verify`` with its own statics and kinematics. ``certified_gap`` is the
+forces and velocities prove is evaluated by ``verify`` with its own statics and kinematics. ``proved_bounds`` is the
 solver stage's own evaluation of the same, on the program alone.
 """
 
@@ -15,7 +15,7 @@ from mbla.arrays import FloatArray
 from mbla.process.stopwatch import stage
 from mbla.program.program import Program
 from mbla.solution.associative.condition_cones import ConditionCones
-from mbla.solution.nonassociative.law_state import LawState
+from mbla.solution.nonassociative.collapse_state import CollapseState
 from mbla.solution.proof.kinematic_repair import repaired_mechanisms
 from mbla.solution.proof.static_repair import repaired_forces
 from mbla.solution.thresholds import LOCKED_IN, ZERO_FACTOR
@@ -28,7 +28,7 @@ WORK_ROUNDING = 1e-13
 
 
 @dataclass(frozen=True)
-class CertifiedGap:
+class ProvedBounds:
     """What the repaired forces and velocities of a state prove about the associative factor of a program.
 
     static, kinematic : bounds, NaN where none could be proved
@@ -48,7 +48,7 @@ class CertifiedGap:
     least: float = 0.0
     of_interfaces: bool = False
 
-    def with_bounds_of(self, other: CertifiedGap) -> CertifiedGap:
+    def with_bounds_of(self, other: ProvedBounds) -> ProvedBounds:
         """The greater static bound of two with its forces, and the lesser kinematic one with its velocities."""
         forces = self if not other.static > self.static and np.isfinite(self.static) else other
         velocities = self if not other.kinematic < self.kinematic and np.isfinite(self.kinematic) else other
@@ -58,7 +58,7 @@ class CertifiedGap:
 
 
 @stage("repair")
-def certified_gap(program: Program, state: LawState, slacks: FloatArray | None = None) -> CertifiedGap:
+def proved_bounds(program: Program, state: CollapseState, slacks: FloatArray | None = None) -> ProvedBounds:
     """Bounds of the associative load factor that a state proves; no solver is called.
 
     state  : its velocities are (n_rows + n_unknowns,), those of conditions on interfaces behind those of the blocks
@@ -77,7 +77,7 @@ def certified_gap(program: Program, state: LawState, slacks: FloatArray | None =
         forces, factor, static = np.zeros_like(forces), 0.0, 0.0
     least = ZERO_FACTOR * factor_size(program)
     gap = abs(kinematic - static) / max(abs(kinematic), least, 1e-300)
-    return CertifiedGap(static, kinematic, gap, forces, factor, mechanisms[best], least, slacks is not None)
+    return ProvedBounds(static, kinematic, gap, forces, factor, mechanisms[best], least, slacks is not None)
 
 
 def factor_size(program: Program) -> float:

@@ -29,7 +29,7 @@ from mbla.solution.flow.gravity_step import Gravity, gravity_step
 from mbla.solution.flow.settings import RATIOS
 from mbla.solution.law.elastic_joints import ElasticJoints
 from mbla.solution.mechanics import lifted, motion_of
-from mbla.solution.nonassociative.law_state import LawState, StepHistory
+from mbla.solution.nonassociative.collapse_state import CollapseState, StepHistory
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import WITH_VALUE, ProgramRecord, Standing, StandingResult
 
@@ -56,7 +56,7 @@ class StressFree:
     gravity : the step with the first of both ratios; None without any
     """
 
-    rest: LawState | None
+    rest: CollapseState | None
     motion: FloatArray
     doubt: str = ""
     gravity: Gravity | None = None
@@ -92,7 +92,7 @@ def stress_free_state(program: Program, states: StressFreeStates | None = None) 
     states : those known, to which it is added
     """
     alone = replace(program, conditions=None)
-    alone = alone if program.facts.settles else alone.without_live_load()
+    alone = alone if program.facts.settling_support else alone.without_live_load()
     return _stress_free(alone) if states is None else states.of(alone)
 
 
@@ -102,7 +102,7 @@ def _stress_free(program: Program) -> StressFree:
         none = np.zeros((program.n_points, program.components))
         still = np.zeros_like(program.dead_load)
         history = StepHistory(none, np.ones(program.n_points), np.ones(program.n_points))
-        rest = None if np.any(program.dead_load) else LawState(none, still, 0.0, 0.0, history=history)
+        rest = None if np.any(program.dead_load) else CollapseState(none, still, 0.0, 0.0, history=history)
         return StressFree(rest, program.dead_load)
     first = ElasticJoints.of(program, shares_of(program), RATIOS[0])
     joints = [replace(first, shear=ratio * first.normal) for ratio in RATIOS]
@@ -114,10 +114,10 @@ def _stress_free(program: Program) -> StressFree:
     return StressFree(None, motion, doubt if all(gravity.settled for gravity in found) else SLOWLY)
 
 
-def _at_rest(joints: ElasticJoints, gravity: Gravity) -> LawState:
+def _at_rest(joints: ElasticJoints, gravity: Gravity) -> CollapseState:
     state = gravity.state
     history = StepHistory(np.zeros_like(state.forces), joints.normal, joints.shear)
-    return LawState(state.forces, state.u, state.factor, 0.0, history=history)
+    return CollapseState(state.forces, state.u, state.factor, 0.0, history=history)
 
 
 def assess_dead_load(
@@ -146,7 +146,7 @@ def assess_dead_load(
     return StandingResult(verdict, block, reason)
 
 
-def _on_model(program: Program, rest: LawState) -> StandingResult:
+def _on_model(program: Program, rest: CollapseState) -> StandingResult:
     """Forces, and the displacements that cause them on joints the stiffest of which has a stiffness of 1.
 
     With a force of 1 per length of 1 in the deck's units; with joints k times as stiff everything moves 1/k as far.

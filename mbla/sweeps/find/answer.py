@@ -73,7 +73,7 @@ class Answer:
     words: str = ""
     solves: int = 1
     bounds: tuple[float, float] = (math.nan, math.nan)
-    known: float = 0.0
+    uncertainty: float = 0.0
 
 
 def answer_at(deck: Deck, question: Question, x: float) -> Answer:

@@ -14,7 +14,7 @@ from mbla.program.reductions.steps import ReductionSwitches
 from mbla.program.yield_conditions import yield_violation
 from mbla.solution.associative.solve_associative import solve_associative
 from mbla.solution.mechanics import lifted
-from mbla.solution.nonassociative.law_state import LawState
+from mbla.solution.nonassociative.collapse_state import CollapseState
 from mbla.solution.settings import SolverSettings
 from tests.line import BLOCK, HEAD, WALL, Line, line_of, verified
 
@@ -55,13 +55,13 @@ def reduced(line: Line, *, associative: bool = True, switches: ReductionSwitches
     return reduce_program(line.model, line.contacts, line.program, switches, associative=associative)
 
 
-def optimum(program: Program) -> LawState:
+def optimum(program: Program) -> CollapseState:
     result = solve_associative(program, SolverSettings(1e-9), lambda record: None)
     assert result.state is not None, result.reason
     return result.state
 
 
-def both(line: Line) -> tuple[LawState, LawState, Program]:
+def both(line: Line) -> tuple[CollapseState, CollapseState, Program]:
     """State of the whole program, and that of the only part with its program."""
     (part,) = reduced(line).parts
     return optimum(line.program), optimum(part), part
@@ -83,7 +83,7 @@ def test_planar_and_spatial_optimum_agree_and_the_way_back_is_exact(text: str, c
     assert_state_of(line.program, lifted(part, planar))
 
 
-def assert_state_of(program: Program, state: LawState) -> None:
+def assert_state_of(program: Program, state: CollapseState) -> None:
     """Equilibrium, yield, compatibility and unit live power in the whole program."""
     unbalanced = program.equilibrium_matrix @ state.forces.ravel() + program.dead_load
     unbalanced += state.load_factor * program.live_load

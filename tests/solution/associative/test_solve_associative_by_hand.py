@@ -11,7 +11,7 @@ from mbla.program.program import Program
 from mbla.program.static import StaticForm
 from mbla.solution.associative import solve_associative as associative
 from mbla.solution.associative.associative_form import associative_form
-from mbla.solution.associative.proved_answer import AssociativeRun
+from mbla.solution.associative.proved_solution import AssociativeRun
 from mbla.solution.associative.solve_associative import AssociativeResult, solve_associative
 from mbla.solution.cone_solvers.choice import cone_solver
 from mbla.solution.cone_solvers.cone_solution import ConeSolution

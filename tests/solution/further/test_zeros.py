@@ -22,24 +22,24 @@ class Point:
     x: float
     y: float
     slope: float
-    known: float = 0.0
+    uncertainty: float = 0.0
 
 
-def sampled(function: Function, slopes: bool, seen: list[Point], known: float) -> Callable[[float], Point]:
+def sampled(function: Function, slopes: bool, seen: list[Point], uncertainty: float) -> Callable[[float], Point]:
     def at(x: float) -> Point:
         y, slope = function(x)
-        seen.append(Point(x, y, slope if slopes else NAN, known))
+        seen.append(Point(x, y, slope if slopes else NAN, uncertainty))
         return seen[-1]
 
     return at
 
 
 def zeros(
-    function: Function, low: float, high: float, *, slopes: bool, steps: int = 1, known: float = 0.0
+    function: Function, low: float, high: float, *, slopes: bool, steps: int = 1, uncertainty: float = 0.0
 ) -> tuple[list[Zero[Point]], int]:
     """Zeros, and the number of evaluations."""
     seen: list[Point] = []
-    at = sampled(function, slopes, seen, known)
+    at = sampled(function, slopes, seen, uncertainty)
     return find_zeros(scan(low, high, steps, at), at, 1e-9), len(seen)
 
 
@@ -118,8 +118,8 @@ TOUCHING: Function = lambda x: (-abs(x - 0.5), math.copysign(1.0, 0.5 - x))  # n
 
 
 def test_a_stretch_up_to_the_last_sample() -> None:
-    """What is above zero by less than is known does not end it."""
-    (found,), evaluations = zeros(CAPPED, 0, 2, slopes=True, known=1e-9)
+    """What is above zero by less than is uncertainty does not end it."""
+    (found,), evaluations = zeros(CAPPED, 0, 2, slopes=True, uncertainty=1e-9)
     assert found.stretch is not None
     assert [each.x for each in found.stretch] == pytest.approx([0.5, 2], abs=2e-9)
     assert found.complete
@@ -130,55 +130,55 @@ def test_a_stretch_up_to_the_last_sample() -> None:
 @pytest.mark.parametrize("slopes", [True, False])
 @pytest.mark.parametrize("steps", [1, 3, 12])
 def test_a_stretch_between_samples_on_both_sides(slopes: bool, steps: int) -> None:
-    (found,), _ = zeros(STEPS, 0, 7, slopes=slopes, steps=steps, known=1e-9)
+    (found,), _ = zeros(STEPS, 0, 7, slopes=slopes, steps=steps, uncertainty=1e-9)
     assert found.stretch is not None
     assert [each.x for each in found.stretch] == pytest.approx([2.5, 3.5], abs=1e-9)
     assert found.complete
 
 
 def test_without_slopes_one_look_next_to_the_end_of_a_long_stretch_is_enough() -> None:
-    (found,), evaluations = zeros(lambda x: (0.0 if x > 0.3 else -1.0, NAN), 0, 1, slopes=False, known=1e-9)
+    (found,), evaluations = zeros(lambda x: (0.0 if x > 0.3 else -1.0, NAN), 0, 1, slopes=False, uncertainty=1e-9)
     assert found.best.x == pytest.approx(0.3, abs=1e-9)
     assert evaluations <= 3 + math.ceil(math.log2(1e9))
 
 
 def test_a_stretch_from_bound_to_bound_takes_a_look_in_its_middle() -> None:
-    (found,), evaluations = zeros(CAPPED, 0.5, 2, slopes=True, known=1e-9)
+    (found,), evaluations = zeros(CAPPED, 0.5, 2, slopes=True, uncertainty=1e-9)
     assert found.stretch is not None
     assert [each.x for each in found.stretch] == [0.5, 2.0]
     assert (found.error, evaluations) == (0.0, 3)
 
 
 def test_a_value_that_is_only_touched() -> None:
-    (found,), _ = zeros(TOUCHING, 0, 1, slopes=False, steps=2, known=1e-12)
+    (found,), _ = zeros(TOUCHING, 0, 1, slopes=False, steps=2, uncertainty=1e-12)
     assert found.stretch == (found.best, found.best)
     assert found.best.x == 0.5
 
 
 @pytest.mark.parametrize(("low", "high"), [(0.5, 2.0), (-1.0, 0.5)])
 def test_a_zero_at_a_bound(low: float, high: float) -> None:
-    (found,), evaluations = zeros(LINE, low, high, slopes=True, known=1e-12)
+    (found,), evaluations = zeros(LINE, low, high, slopes=True, uncertainty=1e-12)
     assert (found.best.x, found.stretch, found.rises, evaluations) == (0.5, None, True, 2)
 
 
 def test_two_zeros_with_slopes_next_to_each_other_are_no_stretch() -> None:
-    found, _ = zeros(lambda x: (x * (x - 1), 2 * x - 1), 0, 1, slopes=True, known=1e-12)
+    found, _ = zeros(lambda x: (x * (x - 1), 2 * x - 1), 0, 1, slopes=True, uncertainty=1e-12)
     assert [(each.best.x, each.stretch, each.rises) for each in found] == [(0.0, None, False), (1.0, None, True)]
 
 
 def test_without_slopes_values_next_to_a_zero_tell_that_it_is_no_stretch() -> None:
-    (found,), evaluations = zeros(LINE, 0, 1, slopes=False, known=1e-12)
+    (found,), evaluations = zeros(LINE, 0, 1, slopes=False, uncertainty=1e-12)
     assert (found.best.x, found.stretch, evaluations) == (0.5, None, 5)
     assert 0.0 < found.error <= 1e-9
 
 
 def test_an_error_is_no_less_than_what_the_function_may_be_off() -> None:
-    (found,), _ = zeros(LINE, 0, 1, slopes=True, known=1e-4)
+    (found,), _ = zeros(LINE, 0, 1, slopes=True, uncertainty=1e-4)
     assert found.error == pytest.approx(0.5e-4)
 
 
 def test_a_stretch_next_to_what_is_not_known_is_not_complete() -> None:
-    (found,), _ = zeros(lambda x: (0.0 if x > 0 else NAN, 0.0), -1, 1, slopes=True, known=1e-9)
+    (found,), _ = zeros(lambda x: (0.0 if x > 0 else NAN, 0.0), -1, 1, slopes=True, uncertainty=1e-9)
     assert not found.complete
     assert found.stretch == (found.best, found.best)
 

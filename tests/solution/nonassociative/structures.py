@@ -14,8 +14,8 @@ import numpy as np
 from mbla.arrays import FloatArray
 from mbla.program.program import Program
 from mbla.solution.associative.solve_associative import AssociativeResult, solve_associative
+from mbla.solution.nonassociative.collapse_state import CollapseState, FlowResult
 from mbla.solution.nonassociative.elastic import solve_by_elastic_path
-from mbla.solution.nonassociative.law_state import LawState, SequenceResult
 from mbla.solution.nonassociative.least_found import least_found
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import ProgramRecord
@@ -85,7 +85,7 @@ def with_share(program: Program, share: float) -> Program:
     return replace(program, limits=replace(limits, dilatancy=rise))
 
 
-def unbalanced(program: Program, state: LawState) -> float:
+def unbalanced(program: Program, state: CollapseState) -> float:
     """Largest unbalanced force of a state, in mean block loads."""
     loads = program.dead_load + state.load_factor * program.live_load
     return float(np.abs(program.equilibrium_matrix @ state.forces.ravel() + loads).max(initial=0.0))
@@ -97,7 +97,7 @@ def associative_of(program: Program, settings: SolverSettings = SETTINGS) -> Ass
 
 def by_path(
     program: Program, slope: FloatArray | float = 0.0, settings: SolverSettings = SETTINGS
-) -> tuple[float, SequenceResult]:
+) -> tuple[float, FlowResult]:
     """Greatest load factor on the path of elastic joints, and what is said of it; nan where there is none.
 
     slope : tangent of the dilatancy angle
@@ -112,7 +112,7 @@ def least_of(
     slope: FloatArray | float = 0.0,
     settings: SolverSettings = SETTINGS,
     records: list[ProgramRecord] | None = None,
-) -> LawState:
+) -> CollapseState:
     """The least state of rigid joints that the search finds from the path."""
     slopes = slope * np.ones(program.n_points)
     associative, (_, path) = associative_of(program, settings), by_path(program, slope, settings)

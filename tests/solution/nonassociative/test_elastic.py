@@ -14,8 +14,8 @@ from mbla.program.program import Program
 from mbla.solution.flow.path_of_part import path_of_part
 from mbla.solution.flow.path_record import RISES, Stop
 from mbla.solution.flow.settings import PathSettings
+from mbla.solution.nonassociative.collapse_state import CollapseState
 from mbla.solution.nonassociative.elastic import _claim
-from mbla.solution.nonassociative.law_state import LawState
 from mbla.solution.solution import Checks, Solution, Status
 from tests.line import BLOCK, HEAD, WALL, line_of, line_of_file, solution_of, verified
 from tests.performance.standard_set import DECKS
@@ -328,7 +328,7 @@ def path_that(stop: Stop, residual: float) -> tuple[Status, str]:
     """What is claimed of a block's path that ended so, with a state of that residual."""
     program = line_of(BLOCK, "parameters.h=0.5").program
     found = path_of_part(program, associative_of(program), PathSettings())
-    state = LawState(np.zeros((program.n_points, 3)), np.zeros(len(program.dead_load)), 0.5, residual)
+    state = CollapseState(np.zeros((program.n_points, 3)), np.zeros(len(program.dead_load)), 0.5, residual)
     return _claim(replace(found, stop=stop), state, 1.0)
 
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from mbla.program.program import Program
-from mbla.solution.nonassociative.law_state import LawState, law_state
+from mbla.solution.nonassociative.collapse_state import CollapseState, collapse_state
 from mbla.solution.thresholds import NEAR_ZERO
 from tests.line import BLOCK, line_of
 
@@ -23,7 +23,7 @@ load_cases: {push: {live: [{acceleration: [1, 0, 0], on: light}]}}
 """
 
 
-def sliding(program: Program, friction: float, share: float) -> LawState:
+def sliding(program: Program, friction: float, share: float) -> CollapseState:
     """One block that slides along x at the load factor ``friction``, with only a share of the friction as forces."""
     velocities = np.zeros(len(program.live_load))
     velocities[0] = 1.0 / program.live_load[0]
@@ -31,7 +31,7 @@ def sliding(program: Program, friction: float, share: float) -> LawState:
     forces[:, 0] = -program.dead_load[2] / program.n_points
     v = (program.equilibrium_matrix.T @ velocities).reshape(forces.shape)
     forces[:, 1:] = -share * friction * forces[:, [0]] * v[:, 1:] / np.linalg.norm(v[:, 1:], axis=1)[:, None]
-    return law_state(program, 0.0, forces, velocities, friction)
+    return collapse_state(program, 0.0, forces, velocities, friction)
 
 
 @pytest.mark.parametrize(("friction", "miss"), [(0.5, 0.1), (1e-3, 0.1), (1e-8, 1e-8 * 0.1 / NEAR_ZERO)])
@@ -62,5 +62,5 @@ def test_a_joint_that_lifts_by_less_than_its_sliding_misses_the_law(lift: float)
     velocities[2] = lift * velocities[0]
     weight, balance = -float(program.dead_load[2]), 0.5 * -float(program.dead_load[2])
     expected = weight * (0.5 - lift) * velocities[0] / (balance * velocities[0])
-    state = law_state(program, 0.5, slides.forces, velocities, 0.5)
+    state = collapse_state(program, 0.5, slides.forces, velocities, 0.5)
     assert state.residual == pytest.approx(expected, abs=1e-12)

@@ -13,7 +13,7 @@ import pytest
 from mbla.arrays import FloatArray
 from mbla.program.program import Program
 from mbla.program.yield_conditions import yield_violation
-from mbla.solution.nonassociative.law_state import LawState
+from mbla.solution.nonassociative.collapse_state import CollapseState
 from mbla.solution.nonassociative.least_found import least_found, looks_lower
 from mbla.solution.nonassociative.search import NEEDLESS, Search
 from mbla.solution.settings import SolverSettings, solver_settings
@@ -124,7 +124,7 @@ def test_it_is_looked_for_in_the_plane_beside_the_path(overrides: tuple[str, ...
     line = line_of(WALL, "analysis.flow_rule=non_associative", *overrides)
     program, settings = planar_program(line), solver_settings(line.deck.analysis)
     assert looks_lower(program, settings) is looks
-    assert not looks_lower(replace(program, facts=replace(program.facts, settles=True)), settings)
+    assert not looks_lower(replace(program, facts=replace(program.facts, settling_support=True)), settings)
 
 
 @pytest.mark.parametrize(("overrides", "looks"), [((), False), (("analysis.search=0.5",), True)])
@@ -197,7 +197,7 @@ def test_states_that_miss_the_law_are_not_taken(monkeypatch: pytest.MonkeyPatch)
     associative = associative_of(program)
     assert associative.state is not None
 
-    def rough(search: Search, state: LawState) -> None:
+    def rough(search: Search, state: CollapseState) -> None:
         search.found.append(replace(state, residual=1e-2))
 
     monkeypatch.setattr(Search, "keep", rough)

@@ -11,7 +11,7 @@ from mbla.model import build_model
 from mbla.program import Program, assemble
 from mbla.program.reductions import allowed_reductions, reduce_program
 from mbla.solution.associative.solve_associative import AssociativeResult, solve_associative
-from mbla.solution.nonassociative.law_state import SequenceResult
+from mbla.solution.nonassociative.collapse_state import FlowResult
 from mbla.solution.nonassociative.livesley import solve_livesley
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import IterationRecord, Status
@@ -33,7 +33,7 @@ def benchmark(name: str, *overrides: str) -> Program:
     return reduce_program(model, contacts, program, allowed_reductions(deck.analysis), associative=True).parts[0]
 
 
-def corrected(program: Program, settings: SolverSettings = SETTINGS) -> tuple[AssociativeResult, SequenceResult]:
+def corrected(program: Program, settings: SolverSettings = SETTINGS) -> tuple[AssociativeResult, FlowResult]:
     associative = solve_associative(program, SETTINGS, ignored)
     return associative, solve_livesley(program, associative, settings, ignored)
 

@@ -7,7 +7,7 @@ from mbla.deck.sections.analysis import PublishedScheme
 from mbla.program.program import Program
 from mbla.solution.associative.solve_associative import solve_associative
 from mbla.solution.nonassociative import published
-from mbla.solution.nonassociative.law_state import SequenceResult
+from mbla.solution.nonassociative.collapse_state import FlowResult
 from mbla.solution.nonassociative.published import solve_published
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Status
@@ -66,7 +66,7 @@ def test_cohesion_adds_to_friction() -> None:
     assert factor == pytest.approx(0.5 + 1000 / weight, rel=1e-5)
 
 
-def sequence(program: Program, most: int = 4) -> SequenceResult:
+def sequence(program: Program, most: int = 4) -> FlowResult:
     """The sequence of at most a few programs, from a right associative answer."""
     settings = SolverSettings(1e-8)
     associative = solve_associative(program, settings, lambda record: None)

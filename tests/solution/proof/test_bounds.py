@@ -14,8 +14,8 @@ from mbla.program.reductions import allowed_reductions, reduce_program
 from mbla.program.yield_conditions import YieldLimits
 from mbla.solution.associative.solve_associative import solve_associative
 from mbla.solution.linear_algebra.bordered_system import bordered_solver
-from mbla.solution.nonassociative.law_state import LawState
-from mbla.solution.proof.bounds import certified_gap, falling_motion, kinematic_value
+from mbla.solution.nonassociative.collapse_state import CollapseState
+from mbla.solution.proof.bounds import falling_motion, kinematic_value, proved_bounds
 from mbla.solution.proof.kinematic_repair import incompatibility, repaired_mechanisms
 from mbla.solution.proof.metrics import force_metric, velocity_hessian
 from mbla.solution.proof.static_repair import repaired_forces
@@ -37,7 +37,7 @@ def program_of(text: str, *overrides: str) -> Program:
     return reduce_program(line.model, line.contacts, line.program, switches, associative=True).parts[0]
 
 
-def state_of(program: Program) -> LawState:
+def state_of(program: Program) -> CollapseState:
     state = solve_associative(program, SolverSettings(1e-9), lambda record: None).state
     assert state is not None
     return state
@@ -51,7 +51,7 @@ def test_bounds_hold_and_widen_with_the_error_of_the_state(noise: float, reducti
     rng = np.random.default_rng(3)
     forces = exact.forces * (1 + noise * rng.normal(size=exact.forces.shape))
     velocities = exact.velocities * (1 + noise * rng.normal(size=exact.velocities.shape))
-    found = certified_gap(program, LawState(forces, velocities, exact.load_factor * (1 + noise), np.nan))
+    found = proved_bounds(program, CollapseState(forces, velocities, exact.load_factor * (1 + noise), np.nan))
     assert found.static <= exact.load_factor * (1 + 1e-8)
     assert found.kinematic >= exact.load_factor * (1 - 1e-8)
     assert found.gap <= 1e-7 + 300 * noise
@@ -131,7 +131,7 @@ def test_forces_without_shear_prove_no_more_than_there_is_whatever_their_size(si
     program = line_of(BLOCK).program
     straight = np.zeros((program.n_points, 3))
     straight[:, 0] = size * np.abs(program.dead_load).max() / program.n_points
-    gap = certified_gap(program, LawState(straight, np.zeros(len(program.dead_load)), 0.0, np.nan))
+    gap = proved_bounds(program, CollapseState(straight, np.zeros(len(program.dead_load)), 0.0, np.nan))
     assert 0.0 <= gap.static * program.scaling.live <= 0.25
 
 

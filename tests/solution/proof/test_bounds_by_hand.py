@@ -8,14 +8,14 @@ import numpy as np
 import pytest
 
 from mbla.program.program import Program
-from mbla.solution.nonassociative.law_state import LawState
+from mbla.solution.nonassociative.collapse_state import CollapseState
 from mbla.solution.proof.bounds import (
-    CertifiedGap,
-    certified_gap,
+    ProvedBounds,
     dissipation,
     factor_size,
     falling_motion,
     kinematic_value,
+    proved_bounds,
 )
 from tests.solution.by_hand import own_points
 
@@ -86,8 +86,8 @@ def mended(monkeypatch: pytest.MonkeyPatch) -> dict[str, Any]:
 GIVEN = np.array([[4.0, -2.0]])
 
 
-def gap_of(program: Program, load_factor: float = 3.0) -> CertifiedGap:
-    return certified_gap(program, LawState(GIVEN, np.array([0.0, 1.0]), load_factor, np.nan))
+def gap_of(program: Program, load_factor: float = 3.0) -> ProvedBounds:
+    return proved_bounds(program, CollapseState(GIVEN, np.array([0.0, 1.0]), load_factor, np.nan))
 
 
 def test_forces_that_were_mended(mended: dict[str, Any]) -> None:
@@ -131,7 +131,7 @@ def test_what_a_motion_lacks_is_charged_with_twice_the_largest_normal_force(
 ) -> None:
     mended["forces"] = (GIVEN, 1.0)
     program = own_points([-1.0, 0.0], [0.0, 1.0], friction=0.5)
-    found = certified_gap(program, LawState(size * GIVEN, np.array([0.0, 1.0]), 3.0, np.nan))
+    found = proved_bounds(program, CollapseState(size * GIVEN, np.array([0.0, 1.0]), 3.0, np.nan))
     assert found.kinematic == 2.0 * 4.0 * size * 0.5
 
 

@@ -199,7 +199,7 @@ def test_a_draft_without_dilatancy_meets_the_target_to_what_is_known_of_it() -> 
         *("parameters.mu", "load_factor", 0.5, (0.9, 2.0)),
     )
     assert found.record["found"][0]["stretch"] == [0.9, 2.0]
-    assert all(abs(zero.best.y) <= zero.best.known for zero in found.zeros)
+    assert all(abs(zero.best.y) <= zero.best.uncertainty for zero in found.zeros)
 
 
 def test_a_whole_number_gives_a_stretch() -> None:

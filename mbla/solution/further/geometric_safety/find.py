@@ -54,7 +54,7 @@ class _Try:
     y: float
     slope: float
     found: JointPressure
-    known: float = 0.0
+    uncertainty: float = 0.0
 
 
 def geometric_safety_of(

@@ -12,7 +12,7 @@ class Sample(Protocol):
     x     : where
     y     : infinite where only the side is known, nan where nothing is
     slope : nan without one
-    known : by how much y may be off, so that it is zero up to that; 0 where its sign counts however small it is
+    uncertainty : of y, absolute: |y| up to it counts as zero; 0 where its sign counts however small it is
     """
 
     @property
@@ -22,7 +22,7 @@ class Sample(Protocol):
     @property
     def slope(self) -> float: ...  # noqa: D102
     @property
-    def known(self) -> float: ...  # noqa: D102
+    def uncertainty(self) -> float: ...  # noqa: D102
 
 
 S = TypeVar("S", bound=Sample)
@@ -58,12 +58,12 @@ class Zero(Generic[S]):
 
 def is_zero(sample: Sample) -> bool:
     """Whether the function is zero there, as far as it is known."""
-    return sample.known > 0.0 and abs(sample.y) <= sample.known
+    return sample.uncertainty > 0.0 and abs(sample.y) <= sample.uncertainty
 
 
 def steep(sample: Sample, width: float) -> bool:
     """Whether the slope, over a width of x, is more than the function may be off; without a slope it is not."""
-    return abs(sample.slope) * width > sample.known
+    return abs(sample.slope) * width > sample.uncertainty
 
 
 def apart(one: Sample, other: Sample) -> bool:
@@ -74,4 +74,4 @@ def apart(one: Sample, other: Sample) -> bool:
 
 def level(one: Sample, other: Sample) -> bool:
     """Whether the function is the same at two samples as far as it is known, and no slopes speak against it between."""
-    return abs(other.y - one.y) <= max(one.known, other.known) and not apart(one, other)
+    return abs(other.y - one.y) <= max(one.uncertainty, other.uncertainty) and not apart(one, other)

@@ -81,7 +81,7 @@ def _point(before: S | None, zero: S, after: S | None) -> Zero[S]:
     """A sample with a slope that is zero: no other next to it is."""
     known = [each if each is not None and not math.isnan(each.y) else zero for each in (before, after)]
     bracket = (known[0], known[1]) if zero.slope > 0.0 else (known[1], known[0])
-    return Zero(zero, bracket, zero.known / abs(zero.slope), complete=True)
+    return Zero(zero, bracket, zero.uncertainty / abs(zero.slope), complete=True)
 
 
 def _end(inside: S, outside: S | None, at: At[S], tolerance: float) -> _End[S]:
@@ -117,6 +117,6 @@ def _guess(inside: Sample, seen: Sequence[Sample], tolerance: float) -> float:
         slope = (outside.y - seen[-2].y) / (outside.x - seen[-2].x)
     if not (math.isfinite(outside.y) and slope * width * outside.y < 0.0):
         return math.nan
-    left = math.copysign(inside.known, outside.y) - outside.y
+    left = math.copysign(inside.uncertainty, outside.y) - outside.y
     share = left / (slope * width) + PAST * tolerance / abs(width)
     return min(max(share, room), 1.0 - room) if share < 1.0 + room else math.nan

@@ -108,7 +108,7 @@ def _best(below: S, above: S, seen: Sequence[S]) -> tuple[S, float]:
 
 def _with_rounding(best: Sample, error: float) -> float:
     """The error of x, no less than what the function may be off is worth by its slope."""
-    return max(error, best.known / abs(best.slope)) if is_zero(best) else error
+    return max(error, best.uncertainty / abs(best.slope)) if is_zero(best) else error
 
 
 def _jumps(below: S, above: S, seen: Sequence[S], error: float) -> bool:

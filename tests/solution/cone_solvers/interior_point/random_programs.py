@@ -25,7 +25,7 @@ from mbla.program.program import Program
 from mbla.program.reductions import reduce_program
 from mbla.program.reductions.steps import ReductionSwitches
 from mbla.solution.associative.solve_associative import AssociativeResult, solve_associative
-from mbla.solution.proof.bounds import CertifiedGap, certified_gap, factor_size
+from mbla.solution.proof.bounds import ProvedBounds, factor_size, proved_bounds
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Status
 from mbla.solution.thresholds import ZERO_FACTOR
@@ -156,7 +156,7 @@ class Outcome:
     """What a solver made of a program; bounds are NaN where there is no load factor."""
 
     result: AssociativeResult
-    bounds: CertifiedGap | None
+    bounds: ProvedBounds | None
 
     @property
     def is_decided(self) -> bool:
@@ -172,7 +172,7 @@ class Outcome:
 def outcome_of(program: Program, solver: str) -> Outcome:
     """The associative load factor by a solver, and the bounds that its state proves."""
     result = solve_associative(program, SolverSettings(TOLERANCE, solver=solver), lambda record: None)
-    return Outcome(result, None if result.state is None else certified_gap(program, result.state))
+    return Outcome(result, None if result.state is None else proved_bounds(program, result.state))
 
 
 def contradiction(program: Program, first: Outcome, second: Outcome) -> str:

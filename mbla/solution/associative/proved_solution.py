@@ -19,8 +19,8 @@ from mbla.program.program import Program
 from mbla.solution.associative.associative_form import AssociativeForm, associative_form, in_own_units
 from mbla.solution.cone_solvers.choice import cone_solver, other_method
 from mbla.solution.cone_solvers.cone_solution import ConeSolution, ConeSolver, Log
-from mbla.solution.nonassociative.law_state import LawState
-from mbla.solution.proof.bounds import CertifiedGap, certified_gap, factor_size, falling_motion
+from mbla.solution.nonassociative.collapse_state import CollapseState
+from mbla.solution.proof.bounds import ProvedBounds, factor_size, falling_motion, proved_bounds
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import WITH_VALUE, ProgramRecord, Status
 from mbla.solution.thresholds import GAP_TOLERANCE
@@ -60,7 +60,7 @@ class AssociativeRun:
 
 
 @dataclass(frozen=True)
-class ProvedAnswer:
+class ProvedSolution:
     """What the solver returned, and what of it could be proved.
 
     form        : what was solved
@@ -70,7 +70,7 @@ class ProvedAnswer:
 
     solution: ConeSolution
     form: AssociativeForm
-    gap: CertifiedGap | None = None
+    gap: ProvedBounds | None = None
     certificate: FloatArray | None = None
 
     @property
@@ -79,7 +79,7 @@ class ProvedAnswer:
         return float("inf") if self.gap is None or not self.gap.gap >= 0.0 else self.gap.gap
 
 
-def solve_until_proved(run: AssociativeRun, form: AssociativeForm) -> ProvedAnswer:
+def solve_until_proved(run: AssociativeRun, form: AssociativeForm) -> ProvedSolution:
     """What one method proves; where that leaves it open the other, then the first as sharply as it can."""
     first = best = _answer(run, form, 1.0, run.settings)
     sharpest = replace(run.settings, tolerance=min(run.settings.tolerance, SHARPEST))
@@ -101,12 +101,12 @@ def solve_until_proved(run: AssociativeRun, form: AssociativeForm) -> ProvedAnsw
     return best
 
 
-def _is_open(run: AssociativeRun, best: ProvedAnswer) -> bool:
+def _is_open(run: AssociativeRun, best: ProvedSolution) -> bool:
     """Whether another program is wanted, and allowed."""
     return not is_decided(run, best) and best.solution.status is not Status.TIME_LIMIT
 
 
-def _in_units_of(run: AssociativeRun, found: ProvedAnswer) -> AssociativeForm | None:
+def _in_units_of(run: AssociativeRun, found: ProvedSolution) -> AssociativeForm | None:
     """The program in units of what was found, within less friction; None where it would be the same."""
     limits = run.program.limits
     rough = bool((limits.friction > ROUGH).any())
@@ -118,20 +118,20 @@ def _in_units_of(run: AssociativeRun, found: ProvedAnswer) -> AssociativeForm | 
     return replace(own or associative_form(program), program=run.program)  # what is proved holds of the true friction
 
 
-def _answer(run: AssociativeRun, form: AssociativeForm, unit: float, settings: SolverSettings) -> ProvedAnswer:
+def _answer(run: AssociativeRun, form: AssociativeForm, unit: float, settings: SolverSettings) -> ProvedSolution:
     """The program in the given unit of the load factor, and what of its solution can be proved."""
     solver = cone_solver(form.cone_program if unit == 1.0 else form.in_units(unit), settings, run.log)
     solution = solved_once(run, solver, "associative", unit)
     if unit != 1.0:
         solution = replace(solution, x=solution.x * unit, objective=solution.objective * unit)
     if solution.status in (Status.TIME_LIMIT, Status.ITERATION_LIMIT, Status.UNBOUNDED):
-        return ProvedAnswer(solution, form)
+        return ProvedSolution(solution, form)
     certificate = proved_certificate(run, form, solution)
     has_value = certificate is None and solution.status in WITH_VALUE and not says_it_falls(run, solution)
-    return ProvedAnswer(solution, form, _proved(form, solution) if has_value else None, certificate)
+    return ProvedSolution(solution, form, _proved(form, solution) if has_value else None, certificate)
 
 
-def is_decided(run: AssociativeRun, answer: ProvedAnswer) -> bool:
+def is_decided(run: AssociativeRun, answer: ProvedSolution) -> bool:
     """Whether it is proved as sharply as asked for, a small load factor relatively too."""
     if answer.certificate is not None or answer.solution.status is Status.UNBOUNDED:
         return True
@@ -141,7 +141,7 @@ def is_decided(run: AssociativeRun, answer: ProvedAnswer) -> bool:
     return abs(answer.gap.kinematic - answer.gap.static) <= share * abs(answer.gap.kinematic)
 
 
-def better(first: ProvedAnswer, second: ProvedAnswer) -> ProvedAnswer:
+def better(first: ProvedSolution, second: ProvedSolution) -> ProvedSolution:
     """The answer with the stronger proof, the earlier one of equals; with conditions on interfaces both bounds count.
 
     Of such programs one method has the closer forces, the other the closer velocities.
@@ -149,7 +149,7 @@ def better(first: ProvedAnswer, second: ProvedAnswer) -> ProvedAnswer:
     if first.gap is not None and second.gap is not None and first.gap.of_interfaces:
         first, second = (replace(one, gap=first.gap.with_bounds_of(second.gap)) for one in (first, second))
 
-    def weakness(answer: ProvedAnswer) -> tuple[int, float]:
+    def weakness(answer: ProvedSolution) -> tuple[int, float]:
         if answer.certificate is not None or answer.gap is not None:
             return 0 if answer.certificate is not None else 1, answer.distance
         return 2 if answer.solution.status is Status.UNBOUNDED else 3, answer.distance
@@ -182,13 +182,13 @@ def says_it_falls(run: AssociativeRun, solution: ConeSolution) -> bool:
     return solution.status is Status.NO_EQUILIBRIUM or (solution.status in WITH_VALUE and negative)
 
 
-def _proved(form: AssociativeForm, solution: ConeSolution) -> CertifiedGap:
+def _proved(form: AssociativeForm, solution: ConeSolution) -> ProvedBounds:
     """Bounds that a solution proves."""
-    state = LawState(form.forces(solution), form.velocities(solution), form.load_factor(solution), np.nan)
-    return certified_gap(form.program, state, form.slacks(solution))
+    state = CollapseState(form.forces(solution), form.velocities(solution), form.load_factor(solution), np.nan)
+    return proved_bounds(form.program, state, form.slacks(solution))
 
 
-def _size(run: AssociativeRun, answer: ProvedAnswer) -> float:
+def _size(run: AssociativeRun, answer: ProvedSolution) -> float:
     """Size of the load factor: 1, or its own where that is small."""
     size, value = run.size, abs(answer.solution.objective)
     if answer.gap is None or value > SMALL * size:

@@ -38,12 +38,12 @@ class StepHistory:
 
 
 @dataclass(frozen=True)
-class LawState:
+class CollapseState:
     """A state of the non-dimensional program, and how badly it fits the law.
 
     forces     : (n_points, components)
     velocities : (n_rows,)
-    residual   : largest of the relative residuals, see ``law_state``
+    residual   : largest of the relative residuals, see ``collapse_state``
     motions    : (n_interfaces, 2, 6) of the interfaces by torsion and by crushing, where there are conditions on them
     history    : of elastic joints, by which the forces follow from the velocities; None where rigid joints fit them
     """
@@ -62,7 +62,7 @@ class LawState:
 
 
 @dataclass(frozen=True)
-class SequenceResult:
+class FlowResult:
     """Best state of a sequence; status SOLVED where it converged, APPROXIMATE where not.
 
     remarks : what a reader of the figure must know
@@ -74,7 +74,7 @@ class SequenceResult:
     """
 
     status: Status
-    state: LawState | None
+    state: CollapseState | None
     reason: str
     programs: tuple[ProgramRecord, ...]
     remarks: tuple[Message, ...] = ()
@@ -86,17 +86,17 @@ class SequenceResult:
     tolerance_requested: float | None = None
 
 
-def as_asked(state: LawState, residual: float, wanted: float, programs: tuple[ProgramRecord, ...]) -> SequenceResult:
+def as_asked(state: CollapseState, residual: float, wanted: float, programs: tuple[ProgramRecord, ...]) -> FlowResult:
     """A rough state with which a scheme ends, for its residual is within the one that was asked for."""
     words = AS_ASKED.format(residual, wanted)
     if residual <= SOLVED_RESIDUAL:
-        return SequenceResult(Status.SOLVED, state, "", programs, remarks=(words,))
-    return SequenceResult(Status.APPROXIMATE, state, words, programs, tolerance_requested=wanted)
+        return FlowResult(Status.SOLVED, state, "", programs, remarks=(words,))
+    return FlowResult(Status.APPROXIMATE, state, words, programs, tolerance_requested=wanted)
 
 
 def broken_off(
-    solution: ConeSolution, programs: Sequence[ProgramRecord], best: LawState | None = None, reason: str = ""
-) -> SequenceResult:
+    solution: ConeSolution, programs: Sequence[ProgramRecord], best: CollapseState | None = None, reason: str = ""
+) -> FlowResult:
     """What is left of a sequence whose last program, one of ``programs``, ended without a solution.
 
     That a fictitious program has none is not said of the structure. ``reason`` replaces the common words.
@@ -104,12 +104,12 @@ def broken_off(
     of_program = solution.status in (Status.NO_EQUILIBRIUM, Status.UNBOUNDED)
     words = f"program {len(programs)} of the sequence ended without a solution ({solution.verdict})"
     status = Status.NOT_VERIFIED if of_program else solution.status
-    return SequenceResult(status, best, reason or words, tuple(programs))
+    return FlowResult(status, best, reason or words, tuple(programs))
 
 
-def law_state(
+def collapse_state(
     program: Program, slope: FloatArray | float, forces: FloatArray, velocities: FloatArray, load_factor: float
-) -> LawState:
+) -> CollapseState:
     """A state with its residual, the largest of three.
 
     Excess over the yield conditions, in mean block loads; closing velocity over the largest contact speed, where the
@@ -131,7 +131,7 @@ def law_state(
     unexplained += np.abs(forces[:, 0]) * np.where(crushable, 0.0, np.maximum(-surplus - closes, 0.0))
     closing = float(np.where(crushable, 0.0, closes).max(initial=0.0)) / speed
     excess = float(yield_violation(forces, limits).max(initial=0.0))
-    return LawState(forces, velocities, load_factor, max(excess, closing, float(unexplained.sum()) / balance))
+    return CollapseState(forces, velocities, load_factor, max(excess, closing, float(unexplained.sum()) / balance))
 
 
 def _unexplained(
