@@ -22,11 +22,11 @@ from mbla.solution.settings import SolverSettings
 
 SAME_FACTOR = 1e-9
 """Relative difference of load factors within which a part is about to collapse as well: it has the forces of its own
-collapse. With what 3e-8 leaves unbalanced no static bound was found of a wall whose forces are at their limits."""
+collapse."""
 
 NEAR = 1e-3
 """Relative difference up to which a part collapses soon after. At the load factor a program that looks for the least
-forces has hardly an interior then, and its answer was too rough for a static bound."""
+forces has hardly an interior then."""
 
 BELOW = 1e-2
 """Share of the load factor by which such a part is examined below it. Forces of there and of its own collapse,

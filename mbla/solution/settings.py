@@ -10,7 +10,7 @@ from mbla.deck.sections.analysis import AnalysisSection
 from mbla.model.model import LoadCase
 
 MAX_ITERATIONS = 300
-"""Iterations of one program; walls of 10,000 blocks need about 70."""
+"""Iterations of one program."""
 
 
 @dataclass(frozen=True)

@@ -19,8 +19,7 @@ APPROXIMATE_RESIDUAL = 1e-2
 """Residual up to which a factor is approximate; beyond, it is not a result."""
 
 SOLVED_EQUILIBRIUM = 1e-5
-"""Unbalanced force up to which a factor counts as solved: the forces must carry it to as many digits as bounds give. On
-a light block next to a heavy one 2e-5 of what it carries was worth 1.1e-4 of the load factor."""
+"""Unbalanced force up to which a factor counts as solved: the forces must carry it to as many digits as bounds give."""
 
 LIVE_POWER_DEVIATION = 1e-6
 """Deviation of the live power from 1: a mechanism of another size is another one."""

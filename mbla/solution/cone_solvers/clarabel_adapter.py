@@ -39,18 +39,18 @@ never brings collapse; an unbounded mechanism (dual infeasible) means that no eq
 
 
 FACTORIZATION = "qdldl"
-"""Of its linear systems; MKL in its place took 24 s for 31 on 3,630 blocks, and longer on smaller structures."""
+"""Of its linear systems."""
 
 UNDECIDED = (Status.APPROXIMATE, Status.NUMERICAL_ERROR, Status.ITERATION_LIMIT)
 
 QUADRATIC_REGULARIZATION = 1e-11
-"""Static regularisation of strictly convex programs: on a wall of 410 blocks 1e-8 cost 34 iterations, this 24."""
+"""Static regularisation of strictly convex programs."""
 
 LINEAR_REGULARIZATION = 1e-8
 """Of programs with a linear cost: of 123 small structures 1e-11 left 42 short of a tolerance of 1e-8, this one."""
 
 MANY, LINEAR_REGULARIZATION_OF_MANY = 3000, 1e-9
-"""Unknowns from which the larger value costs iterations: 39 instead of 32 on a wall of 1,012 blocks."""
+"""Unknowns from which the larger value costs iterations."""
 
 REGULARIZATION_OF_CONDITIONS = 1e-7
 """Of programs with conditions on interfaces, which are often at their limit together with points: with 1e-8 the solver

@@ -18,8 +18,7 @@ from mbla.solution.flow.settings import ratios_beside, second_ratio
 from mbla.solution.solution import PathByStiffness
 
 SAME = 0.05
-"""Share of the load factor by which two stiffnesses may differ: on 40 structures they did by 2 % at most, and of a
-stair tread by 5.5 %."""
+"""Share of the load factor by which two stiffnesses may differ."""
 
 
 def paths_beside(

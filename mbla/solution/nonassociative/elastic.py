@@ -138,7 +138,7 @@ def _at_limit(program: Program, found: PathOfPart, state: CollapseState, interfa
 
 
 AT_MOST = 0.02
-"""Share of the load factor: it was 1.5 where a block crushes at 1 + 1e-6 of its weight stress, a quarter off."""
+"""Share of the load factor that what its state misses of the law may be worth."""
 
 
 def _curve(program: Program, found: PathOfPart) -> tuple[PathPoint, ...]:

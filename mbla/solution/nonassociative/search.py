@@ -26,8 +26,7 @@ MOST_PAIRS, PATIENCE, PROGRESS = 12, 4, 0.7
 of what it was."""
 
 TILTS = ((0.1, 2), (0.03, 2), (0.01, 3))
-"""Tilts in turn, and pairs of programs with each. On walls the last is a state of the law; with 0.3 the states were too
-far from it to come back lower."""
+"""Tilts in turn, and pairs of programs with each."""
 
 WIDE, COMES_BACK = ((0.5, 3), *TILTS), 2e-3
 """In space a search begins with a larger tilt, and anew without it where that violates the law by more than the second:
@@ -39,9 +38,7 @@ NOTABLE = 1e-4
 
 LEAST_WORK, SMALL_WORK = 300, 2e5
 """Iterations that a search may always make for its first state, and again from there, and iterations times contact
-points, whichever allows more: a fifth of a second on 600 points, two on 5,000. On published walls and those of 10 to 25
-courses more led no lower, a third less did not reach the same states; up to 40 courses the first took 154 at most, and
-on 60 courses 4,000 had not found it."""
+points, whichever allows more."""
 
 FEWEST_PAIRS = 4
 """Pairs of programs for which there must be work left for a descent to begin: cut short it ends off the law."""

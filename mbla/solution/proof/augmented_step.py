@@ -21,8 +21,7 @@ from mbla.arrays import FloatArray
 from mbla.solution.linear_algebra.superlu import factorize
 
 ALPHA = 1e-9
-"""α, for rows of unit length. From 1e-8 to 1e-12 a dome, a spiral stair and a wall were balanced to 2e-12 or better,
-with 1e-4 to 6e-10."""
+"""α, for rows of unit length."""
 
 SINGULAR = 1e-14
 """In place of the zeros on the diagonal: rows that depend on others leave the system regular."""

@@ -34,7 +34,7 @@ SETTLED = 1e-10
 NEAR = 1e-2
 """distance up to which it is approximate; beyond, the angle is no result"""
 MOST_STEPS = 16
-"""steps; Newton's method takes 3 to 6, secants about as many"""
+"""Steps of Newton's method or of secants."""
 PROBES = (0.5 * math.pi, 0.75 * math.pi, math.pi)
 """angles tried where the load across alone, from the level table, brings nothing down"""
 BY_LINE = 1e-6
