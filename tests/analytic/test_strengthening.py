@@ -13,7 +13,8 @@ import scipy.sparse as sp
 from scipy.optimize import linprog
 
 from mbla.deck import read_deck
-from mbla.solution.further.strengthening import Cheapest, cheapest
+from mbla.solution.further.strengthening.cheapest import cheapest
+from mbla.solution.further.strengthening.strengthening import Cheapest
 from mbla.solution.solution import WITH_VALUE, Status
 from mbla.sweeps.strengthen.question import question_of
 from tests.analytic.planar import (

@@ -61,7 +61,7 @@ class Answer:
     words    : why there is no result; empty where there is one
     solves   : of programs with a load factor
     bounds   : proved, of an associative result; nan without
-    known    : what the result may be off: within that of the target it meets it
+    uncertainty : absolute, of the result: within that of the target it meets it
     """
 
     x: float
@@ -134,8 +134,8 @@ def _factor(deck: Deck, question: Question, structure: Structure, x: float) -> A
     if associative is not None and math.isclose(associative.load_factor, result, rel_tol=SAME):
         bounds = case.checks.static_bound, case.checks.kinematic_bound
         slope = _slope(deck, question, replace(structure, load_case=case.load_case), case)
-    known = max(_rounding(case.checks, bounds) * max(abs(result), abs(question.target)), _farther(result, bounds))
-    return Answer(x, result, result - question.target, slope, status, verified, "", 1, bounds, known)
+    uncertainty = max(_rounding(case.checks, bounds) * max(abs(result), abs(question.target)), _farther(result, bounds))
+    return Answer(x, result, result - question.target, slope, status, verified, "", 1, bounds, uncertainty)
 
 
 def _rounding(checks: Checks, bounds: tuple[float, float]) -> float:
@@ -175,8 +175,8 @@ def _stands(deck: Deck, question: Question, structure: Structure, x: float) -> A
 
     own, unit = slope_by(deck, found.posed, found.solution, found.checks, question.path, posed), found.unit
     value, least, most = unit * value, unit * least, unit * most  # its unit changes with the structure
-    known = _farther(value, (least, most))
-    return Answer(x, value, value, unit * own, stands, verified, "", found.solves, (least, most), known)
+    uncertainty = _farther(value, (least, most))
+    return Answer(x, value, value, unit * own, stands, verified, "", found.solves, (least, most), uncertainty)
 
 
 def standing_at(deck: Deck, question: Question, x: float) -> StandingResult:

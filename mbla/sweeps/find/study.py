@@ -160,8 +160,8 @@ def _sure(zero: Zero[Answer]) -> bool:
 
 
 def _answer_json(answer: Answer) -> dict[str, Any]:
-    names = ("result", "slope", "status", "verified", "words", "bounds", "known")
-    return {name: as_json(getattr(answer, name)) for name in names}
+    names = ("result", "slope", "status", "verified", "words", "bounds")
+    return {name: as_json(getattr(answer, name)) for name in names} | {"known": as_json(answer.uncertainty)}
 
 
 def _found_words(question: Question, zero: Zero[Answer], standing: StandingResult | None) -> str:

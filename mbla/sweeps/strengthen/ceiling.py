@@ -16,7 +16,7 @@ from mbla.results.listing.mechanism_words import description_of
 from mbla.results.listing.text import number
 from mbla.results.outcome import result_of
 from mbla.results.results import CaseResult, Results
-from mbla.solution.further.strengthening import Strengthening
+from mbla.solution.further.strengthening.strengthening import Strengthening
 
 UNLIMITED = 10.0
 """over all loads that have to be carried: capacity of a candidate that has no greatest one"""

@@ -16,7 +16,8 @@ from mbla.model.build import structure_of
 from mbla.model.ties.candidates import Candidates, build_candidates
 from mbla.model.ties.ties import joined_ties
 from mbla.solution.cone_solvers.cone_solution import Log
-from mbla.solution.further.strengthening import Cheapest, Requirement, Strengthening, cheapest
+from mbla.solution.further.strengthening.cheapest import cheapest
+from mbla.solution.further.strengthening.strengthening import Cheapest, Requirement, Strengthening
 from mbla.solution.settings import solver_settings
 from mbla.solution.solution import WITH_VALUE
 from mbla.sweeps.strengthen.catalogue import greatest_there, rounded_up

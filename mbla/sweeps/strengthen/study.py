@@ -36,7 +36,8 @@ from mbla.results.sta import StatusFile
 from mbla.results.write import write_results
 from mbla.run import run, solve_deck
 from mbla.solution.cone_solvers.cone_solution import Log
-from mbla.solution.further.strengthening import Cheapest, Strengthening, cheapest
+from mbla.solution.further.strengthening.cheapest import cheapest
+from mbla.solution.further.strengthening.strengthening import Cheapest, Strengthening
 from mbla.solution.solution import WITH_VALUE, Status
 from mbla.sweeps.strengthen.catalogue import rounded_up
 from mbla.sweeps.strengthen.ceiling import GREATEST, RAISED, greatest_capacities, shortfall

@@ -118,7 +118,7 @@ TOUCHING: Function = lambda x: (-abs(x - 0.5), math.copysign(1.0, 0.5 - x))  # n
 
 
 def test_a_stretch_up_to_the_last_sample() -> None:
-    """What is above zero by less than is uncertainty does not end it."""
+    """What is above zero by less than its uncertainty does not end it."""
     (found,), evaluations = zeros(CAPPED, 0, 2, slopes=True, uncertainty=1e-9)
     assert found.stretch is not None
     assert [each.x for each in found.stretch] == pytest.approx([0.5, 2], abs=2e-9)

@@ -9,10 +9,10 @@ from typing import Generic, Protocol, TypeVar
 class Sample(Protocol):
     """A value of the function.
 
-    x     : where
-    y     : infinite where only the side is known, nan where nothing is
-    slope : nan without one
-    uncertainty : of y, absolute: |y| up to it counts as zero; 0 where its sign counts however small it is
+    x           : where
+    y           : infinite where only the side is known, nan where nothing is
+    slope       : nan without one
+    uncertainty : absolute, of y: |y| up to it counts as zero; 0 where the sign counts however small y is
     """
 
     @property

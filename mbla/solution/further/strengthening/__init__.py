@@ -1,0 +1,1 @@
+"""Ties that a structure needs to carry more, at least cost."""
