@@ -12,6 +12,7 @@ from mbla.deck.content import Expectation
 from mbla.model import build_model
 from mbla.program import assemble
 from mbla.program.reductions import unreduced
+from mbla.solution.proof.claim import with_proof
 from mbla.solution.settings import solver_settings
 from mbla.solution.solution import Checks, Solution, Status
 from mbla.solution.solve import solve_parts
@@ -52,9 +53,8 @@ def answers(deck: str, *overrides: str) -> Iterator[Answer]:
     model = build_model(read)
     contacts = find_contacts(model, read.contacts)
     for load_case in model.load_cases:
-        solution = solve_parts(
-            unreduced(assemble(model, contacts, load_case), contacts), solver_settings(read.analysis)
-        )
+        reduced = unreduced(assemble(model, contacts, load_case), contacts)
+        solution = with_proof(model, contacts, load_case, solve_parts(reduced, solver_settings(read.analysis)))
         checks = verify(Assembly(model, contacts), load_case, solution)
         expected = read.content.expected[load_case.name]
         yield Answer(load_case.name, expected, solution, checks, verified_status(solution, checks))

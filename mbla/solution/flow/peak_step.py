@@ -54,11 +54,7 @@ class PeakStep:
 
 def with_openings(step: JointStep, state: StepState, sigma: float) -> StepState:
     """The state with the openings that its motion has, where these are not nearly closed, and as much flow."""
-    joints, v = step.joints, step.joints.velocities(state.u)
-    opening = v[0] + step.normal_compliance * (state.normal - step.memory.normal)
-    if joints.dilates:
-        opening = opening - joints.dilatancy * state.speed
-    opening[joints.crushable] += state.crushing
+    joints, opening = step.joints, step.openings(state)
     floor = OF_FLOOR * sigma / joints.margin(state.normal)
     flows = zip(joints.laws, state.interfaces, step.motions(state.u), strict=True)
     interfaces = tuple(law.following(one, state.normal, motion) for law, one, motion in flows)

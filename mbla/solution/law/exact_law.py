@@ -34,5 +34,4 @@ def misfit(step: JointStep, state: StepState, force: float) -> float:
     off = [float(np.abs(one).max(initial=0.0)) for one in (found.normal - state.normal, found.shear - state.shear)]
     each = zip(joints.laws, state.interfaces, strict=True)
     off += [law.misfit(one, state.normal, step.length) for law, one in each]
-    balance = joints.unbalanced(state) - step.held * state.u
-    return max(max(off) / largest, float(np.abs(balance).max(initial=0.0)))
+    return max(max(off) / largest, float(np.abs(step.balance(state)[:-1]).max(initial=0.0)))

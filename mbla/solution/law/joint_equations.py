@@ -38,6 +38,19 @@ class JointStep:
         """1/(k_T h), (n_points,)."""
         return 1.0 / (self.joints.shear * self.length)
 
+    def balance(self, state: StepState) -> FloatArray:
+        """A x + f_D + λ f_L − ε u, and f_L·u − w, which is 0 where the load factor stays; (n_rows + 1,)."""
+        work = float(self.joints.program.live_load @ state.u) - self.work if self.driven else 0.0
+        return np.append(self.joints.unbalanced(state) - self.held * state.u, work)
+
+    def openings(self, state: StepState) -> FloatArray:
+        """Openings y of a state by its motion and its normal forces, (n_points,)."""
+        opening = self.joints.velocities(state.u)[0] + self.normal_compliance * (state.normal - self.memory.normal)
+        if self.joints.dilates:
+            opening = opening - self.joints.dilatancy * state.speed
+        opening[self.joints.crushable] += state.crushing
+        return np.asarray(opening)
+
     def motions(self, u: FloatArray) -> list[FloatArray]:
         """v_r + Ψ̄/h of each law of interfaces, (components, m)."""
         return [
@@ -113,18 +126,15 @@ class Residual:
 
 def residual_of(step: JointStep, state: StepState) -> Residual:
     """What a state leaves of the equations of a step."""
-    joints, program = step.joints, step.joints.program
-    v, memory = joints.velocities(state.u), step.memory
-    work = float(program.live_load @ state.u) - step.work if step.driven else 0.0
-    normal = v[0] + step.normal_compliance * (state.normal - memory.normal) - state.opening
-    if joints.dilates:
-        normal = normal - joints.dilatancy * state.speed
-    normal[joints.crushable] += state.crushing
-    shear = v[1:] + step.shear_compliance * (state.shear - memory.shear) - state.slip
-    balance = joints.unbalanced(state) - step.held * state.u
-    flows = zip(joints.laws, state.interfaces, step.motions(state.u), strict=True)
-    interfaces = tuple(law.residual(one, state.normal, motion) for law, one, motion in flows)
-    return Residual(np.append(balance, work), normal, shear, products_of(joints, state), interfaces)
+    sheared = step.shear_compliance * (state.shear - step.memory.shear)
+    flows = zip(step.joints.laws, state.interfaces, step.motions(state.u), strict=True)
+    return Residual(
+        balance=step.balance(state),
+        normal=step.openings(state) - state.opening,
+        shear=step.joints.velocities(state.u)[1:] + sheared - state.slip,
+        products=products_of(step.joints, state),
+        interfaces=tuple(law.residual(one, state.normal, motion) for law, one, motion in flows),
+    )
 
 
 def products_of(joints: ElasticJoints, state: StepState) -> Products:

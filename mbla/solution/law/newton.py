@@ -52,9 +52,7 @@ class NewtonState:
 
     def state_of(self, step: JointStep) -> StepState:
         """The same as a state of a step, without products."""
-        none = np.zeros_like(self.forces.normal)
-        shear, crushing = self.forces.shear, none[step.joints.crushable]
-        return StepState(self.u, self.factor, self.forces.normal, none, shear, np.zeros_like(shear), none, crushing)
+        return _state(step, self.u, self.factor, self.forces)
 
 
 @np.errstate(over="ignore", invalid="ignore")  # iterations that diverge are seen and given up
@@ -77,11 +75,15 @@ def by_newton(step: JointStep, u: FloatArray, factor: float, *, most: int) -> Ne
 
 def _residual(step: JointStep, u: FloatArray, factor: float) -> tuple[FloatArray, JointForces]:
     """Unbalanced forces and f_L·u − w, (n_rows + 1,), 0 where the load factor stays; forces of the joints."""
-    joints, program = step.joints, step.joints.program
     forces = forces_by_law(step, u)
-    balance = joints.carried(forces.normal, forces.shear) + program.dead_load + factor * program.live_load
-    work = float(program.live_load @ u) - step.work if step.driven else 0.0
-    return np.append(balance - step.held * u, work), forces
+    return step.balance(_state(step, u, factor, forces)), forces
+
+
+def _state(step: JointStep, u: FloatArray, factor: float, forces: JointForces) -> StepState:
+    """A state with forces of the law, without products."""
+    none = np.zeros_like(forces.normal)
+    slip, crushing = np.zeros_like(forces.shear), none[step.joints.crushable]
+    return StepState(u, factor, forces.normal, none, forces.shear, slip, none, crushing)
 
 
 def _iteration(

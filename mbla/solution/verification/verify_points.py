@@ -1,6 +1,6 @@
 """Verification: everything that is claimed, recomputed from model, contacts and solution.
 
-No solver is called and no matrix of the program stage is used for a verdict: forces are summed over blocks and
+No solver is called, nothing is repaired, and no matrix of the program stage is used: forces are summed over blocks and
 velocities taken from rigid-body motion directly (``statics``). The residuals are defined in
 :mod:`mbla.solution.verification.residuals`, what the bounds prove in :mod:`mbla.solution.verification.proofs`.
 

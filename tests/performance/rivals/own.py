@@ -6,6 +6,7 @@ from mbla.assembly.assembly import Assembly
 from mbla.deck.sections.analysis import AnalysisSection
 from mbla.program import assemble
 from mbla.program.reductions import Reduced, allowed_reductions, reduce_program
+from mbla.solution.proof.claim import with_proof
 from mbla.solution.settings import solver_settings
 from mbla.solution.solution import Checks, Solution
 from mbla.solution.solve import solve_parts
@@ -43,8 +44,10 @@ def _answer(structure: Structure, analysis: AnalysisSection) -> Answer:
 
 
 def _verified(structure: Structure, analysis: AnalysisSection) -> tuple[Solution, Checks]:
-    solution = solve_parts(_reduced(structure, analysis), solver_settings(analysis))
-    return solution, verify(Assembly(structure.model, structure.contacts), structure.load_case, solution)
+    model, contacts, load_case = structure.model, structure.contacts, structure.load_case
+    found = solve_parts(_reduced(structure, analysis), solver_settings(analysis))
+    solution = with_proof(model, contacts, load_case, found)
+    return solution, verify(Assembly(model, contacts), load_case, solution)
 
 
 def _reduced(structure: Structure, analysis: AnalysisSection) -> Reduced:
