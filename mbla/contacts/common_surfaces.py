@@ -29,7 +29,7 @@ FLAT = 1e-9
 
 
 @dataclass(frozen=True)
-class Search:
+class FacetSearch:
     """Which facets are compared, and how.
 
     reach  : gap or overlap of two facets, over the size of the smaller block
@@ -45,7 +45,7 @@ class Search:
 
 
 def find_common_surfaces(
-    blocks: Blocks, facets: Facets, grounds: Sequence[Ground], search: Search
+    blocks: Blocks, facets: Facets, grounds: Sequence[Ground], search: FacetSearch
 ) -> tuple[Overlays, Polygons, Facets]:
     """Overlays, what each pair shares, which may be nothing, and the facets by whose rows pairs are numbered.
 
@@ -63,7 +63,7 @@ def find_common_surfaces(
     return concatenate(found), np.concatenate(shapes), sheets
 
 
-def _between(blocks: Blocks, facets: Facets, pairs: IntArray, search: Search) -> tuple[Overlays, Polygons]:
+def _between(blocks: Blocks, facets: Facets, pairs: IntArray, search: FacetSearch) -> tuple[Overlays, Polygons]:
     """Overlays of pairs of facets, (n, 2), those of ground surfaces among them, and what they share."""
     sizes = np.append(blocks.sizes, np.full(max(int(facets.blocks.max(initial=0)) + 1 - len(blocks), 0), np.inf))
 
@@ -94,7 +94,7 @@ def _between(blocks: Blocks, facets: Facets, pairs: IntArray, search: Search) ->
     return overlays, shapes
 
 
-def _on_ground(blocks: Blocks, facets: Facets, ground: Ground, body: int, search: Search) -> Overlays:
+def _on_ground(blocks: Blocks, facets: Facets, ground: Ground, body: int, search: FacetSearch) -> Overlays:
     """Facets that face a ground plane and come within reach of it somewhere."""
     normals = np.broadcast_to(ground.normal, (len(facets), 3))
     bodies = np.stack([np.full(len(facets), body), facets.blocks], axis=1)

@@ -23,7 +23,7 @@ import numpy as np
 import shapely
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
-from mbla.contacts.common_surfaces import Search, find_common_surfaces
+from mbla.contacts.common_surfaces import FacetSearch, find_common_surfaces
 from mbla.contacts.contacts import Contacts
 from mbla.contacts.facets import Facets, build_facets
 from mbla.contacts.joints import joints_of_interfaces, laws_of_nearest
@@ -141,7 +141,7 @@ class MovedSearch:
 
     def _near(self, model: Model, facets: Facets, opened: float, narrow: float) -> tuple[Overlays, Polygons]:
         """Common surfaces within reach, those of facets that are not in contact as built wider than some share."""
-        search = Search(REACH + opened, self._face_each_other, moved=True)
+        search = FacetSearch(REACH + opened, self._face_each_other, moved=True)
         overlays, shapes, _ = find_common_surfaces(model.blocks, facets, model.grounds, search)
         parts, row = connected_parts(shapes)
         overlays = replace(overlays, facets=self._named(overlays.facets)).take(row)

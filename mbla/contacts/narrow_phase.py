@@ -24,7 +24,7 @@ import shapely
 
 from mbla.arrays import FloatArray, IntArray
 from mbla.contacts.broad_phase import NEAR_MISS, are_opposite
-from mbla.contacts.common_surfaces import Search, find_common_surfaces
+from mbla.contacts.common_surfaces import FacetSearch, find_common_surfaces
 from mbla.contacts.facets import Facets
 from mbla.contacts.outlines.overlay import Overlays, Rows, gap_at, local_maps
 from mbla.model.model import Ground
@@ -77,7 +77,7 @@ def find_patches(
     overlap : greatest depth that counts as touching, relative to block size
     """
     tolerance = max(tolerance, overlap / NEAR_MISS)
-    search = Search(NEAR_MISS * tolerance, are_opposite, _EDGE * tolerance)
+    search = FacetSearch(NEAR_MISS * tolerance, are_opposite, _EDGE * tolerance)
     overlays, shapes, sheets = find_common_surfaces(blocks, facets, grounds, search)
     parts, row = connected_parts(shapes)
     found = _measured(overlays.take(row), parts, shapely.area(sheets.polygons))

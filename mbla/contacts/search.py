@@ -9,10 +9,10 @@ import shapely
 
 from mbla.arrays import BoolArray, FloatArray, IntArray, row_of_item
 from mbla.contacts.broad_phase import find_block_pairs
-from mbla.contacts.contacts import Contacts
+from mbla.contacts.contacts import ContactReport, Contacts
 from mbla.contacts.facets import Facets, build_facets
 from mbla.contacts.glue import Glue, glue_blocks
-from mbla.contacts.joints import joints_of_interfaces
+from mbla.contacts.joints import Laws, joints_of_interfaces
 from mbla.contacts.narrow_phase import Patches, Verdicts, find_patches, judge
 from mbla.contacts.notices import outline_notices, report_notices
 from mbla.contacts.outlines.corners import areas_and_centroids, needed_corners
@@ -23,6 +23,7 @@ from mbla.contacts.overlaps import SLIGHT, find_overlaps
 from mbla.contacts.report import Findings, both_fixed, build_report, held_blocks, misses_within, unsupported_parts
 from mbla.contacts.third_block import SeparatedPairs, drop_pairs_separated_by_third_block
 from mbla.deck.sections.contacts import ContactsSection
+from mbla.errors import Notice
 from mbla.model.model import Model, PrescribedInterfaces
 from mbla.model.solids.polygons import polygons_from_loops, widths
 
@@ -63,14 +64,6 @@ def find_contacts(model: Model, section: ContactsSection) -> Contacts:
     )
     order = _order(kept, np.ones(len(kept), dtype=bool))
     kept, rows = kept.take(order), rows[source[order]]
-    corners = needed_corners(kept.polygons, section.tolerance)
-    simpler = outline_notices(model, section, kept, areas_and_centroids(corners)[0])
-    law_of, names = laws.in_use(rows)
-    crushable = np.isfinite([model.joints[name].compressive_strength for name in names])
-    corners, piece = in_pieces(corners, crushable[law_of])
-    kept, law_of = kept.take(piece), law_of[piece]
-    _, centroid = areas = areas_and_centroids(corners)
-    found, left_alone = interface_points(corners, centroid, kept.overlays.sizes, section.points)
     findings = Findings(
         contacts=verdicts.contacts,
         slivers=verdicts.slivers,
@@ -82,10 +75,35 @@ def find_contacts(model: Model, section: ContactsSection) -> Contacts:
         glue=glue,
     )
     report = build_report(model, findings)
-    remarks = (*notices, *twice, *simpler, *left_alone, *report_notices(model, section, report, findings))
-    report = replace(report, notices=remarks)
+    contacts, simpler = _contacts(model, section, kept, laws, rows, report, glue)
+    remarks = (*notices, *twice, *simpler, *report_notices(model, section, report, findings))
+    return replace(contacts, report=replace(report, notices=remarks))
+
+
+def _contacts(
+    model: Model,
+    section: ContactsSection,
+    kept: Patches,
+    laws: Laws,
+    rows: IntArray,
+    report: ContactReport,
+    glue: Glue,
+) -> tuple[Contacts, list[Notice]]:
+    """The interfaces with their points, in pieces where they can crush, and what is said of their outlines.
+
+    laws : joint laws; those of the interfaces are at ``rows``
+    """
+    corners = needed_corners(kept.polygons, section.tolerance)
+    notices = outline_notices(model, section, kept, areas_and_centroids(corners)[0])
+    law_of, names = laws.in_use(rows)
+    crushable = np.isfinite([model.joints[name].compressive_strength for name in names])
+    corners, piece = in_pieces(corners, crushable[law_of])
+    kept, law_of = kept.take(piece), law_of[piece]
+    _, centroid = areas = areas_and_centroids(corners)
+    found, left_alone = interface_points(corners, centroid, kept.overlays.sizes, section.points)
     gaps = kept.gaps * kept.overlays.sizes
-    return Contacts.on(kept.overlays, areas, found, (law_of, names), gaps, report, glue.solid_of_block)
+    contacts = Contacts.on(kept.overlays, areas, found, (law_of, names), gaps, report, glue.solid_of_block)
+    return contacts, [*notices, *left_alone]
 
 
 def _verdicts(model: Model, facets: Facets, tolerance: float, overlap: float) -> tuple[Verdicts, SeparatedPairs]:
