@@ -25,7 +25,8 @@ Resultants are r = (N, Σ n x_1/ρ, Σ n x_2/ρ) about the centroid of the inter
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -68,7 +69,34 @@ class Pieces:
 
     def only(self, chosen: IntArray) -> Pieces:
         """Some of them."""
-        return replace(self, **{name: getattr(self, name)[..., chosen] for name in vars(self) if name != "factor"})
+        named = (each.name for each in fields(self) if each.name != "factor")
+        return replace(self, **{name: getattr(self, name)[..., chosen] for name in named})
+
+    def values(self, resultants: FloatArray) -> FloatArray:
+        """Of the conditions, (n_conditions, m), at r, (c, m): the lesser of Q_1 and Q_2 where one is negative."""
+        (q, n, p), (first, second, lead) = self.forms(resultants)
+        root = np.where((first > 0.0) & (second > 0.0), np.sqrt(np.abs(first * second)), np.minimum(first, second))
+        at_edges = q - (n * n + 3.0 * p * p) / self.strength
+        return np.concatenate([at_edges, root - np.maximum(lead, 0.0) ** 1.5 / self.root])
+
+    def forms(self, resultants: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Linear forms of edges, (3, n_edges, m), and of corners, (3, n_corners, m)."""
+        edges, corners = (
+            constant + sum(slope * own for slope, own in zip(slopes, resultants, strict=True))
+            for constant, slopes in self._linear
+        )
+        return edges, corners
+
+    @cached_property
+    def root(self) -> FloatArray:
+        """√(K F), (m,)."""
+        return np.asarray(np.sqrt(self.factor * self.strength))
+
+    @cached_property
+    def _linear(self) -> list[tuple[FloatArray, list[FloatArray]]]:
+        """Constants of the forms of edges and corners, (3, k, m), and their factors of each resultant."""
+        forms = [np.ascontiguousarray(own.transpose(2, 1, 0, 3)) for own in (self.edges, self.corners)]
+        return [(own[0], list(own[1:])) for own in forms]
 
 
 @dataclass(frozen=True)

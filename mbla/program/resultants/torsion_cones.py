@@ -45,6 +45,8 @@ def torsion_conditions(
         cones=rows.cones,
         cone_sizes=rows.cone_sizes,
         motions=(motions, sp.csr_array(motions.shape)),
+        reserves=(),
+        single=np.full(len(rows.cost), -1),
     )
 
 

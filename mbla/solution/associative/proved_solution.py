@@ -17,6 +17,7 @@ import numpy as np
 from mbla.arrays import FloatArray
 from mbla.program.program import Program
 from mbla.solution.associative.associative_form import AssociativeForm, associative_form, in_own_units
+from mbla.solution.associative.taken_conditions import TakenConditions
 from mbla.solution.cone_solvers.choice import cone_solver, other_method
 from mbla.solution.cone_solvers.cone_solution import ConeSolution, ConeSolver, Log
 from mbla.solution.nonassociative.collapse_state import CollapseState
@@ -39,19 +40,30 @@ the second one's units of live power, in turn: an arch at its least thickness is
 ROUGH = 1e3
 """Friction that counts in the second method."""
 
+ROUGH_TOLERANCE = 1e-5
+"""Of programs whose forces only say which conditions they need."""
+
 
 @dataclass
 class AssociativeRun:
     """What every step needs, and the programs solved so far.
 
-    first : number of the first program in the sequence of the load case
+    conditions : on interfaces, as far as they are taken in
+    first      : number of the first program in the sequence of the load case
+    exceeded   : conditions with those that forces found for a proof need besides; None where they keep within all
     """
 
-    program: Program
+    conditions: TakenConditions
     settings: SolverSettings
     log: Log
     first: int
     records: list[ProgramRecord]
+    exceeded: TakenConditions | None = None
+
+    @property
+    def program(self) -> Program:
+        """With the conditions that are taken in."""
+        return self.conditions.program
 
     @property
     def size(self) -> float:
@@ -79,9 +91,69 @@ class ProvedSolution:
         return float("inf") if self.gap is None or not self.gap.gap >= 0.0 else self.gap.gap
 
 
-def solve_until_proved(run: AssociativeRun, form: AssociativeForm) -> ProvedSolution:
-    """What one method proves; where that leaves it open the other, then the first as sharply as it can."""
-    first = best = _answer(run, form, 1.0, run.settings)
+def proved_solution(run: AssociativeRun) -> ProvedSolution:
+    """What is proved of the program with all conditions, of which those are taken in that its forces need.
+
+    Its velocities are those of that program, its form has what was taken in.
+    """
+    if not run.conditions.are_all:
+        take_in_exceeded(run, 1.0)
+    while True:
+        run.exceeded = None
+        answer = solve_until_proved(run, *_first_solution(run))
+        more = run.exceeded
+        if answer.gap is None and not run.conditions.are_all:
+            more = run.conditions.with_all()
+        closed = answer.certificate is not None or answer.solution.status is Status.TIME_LIMIT
+        if more is None or closed or (answer.gap is not None and is_decided(run, answer)):
+            return _of_whole(run, answer)
+        run.conditions = more
+
+
+def take_in_exceeded(run: AssociativeRun, sense: float) -> tuple[AssociativeForm, ConeSolution]:
+    """Take in what rough forces exceed until they exceed nothing; the form and its rough solution then.
+
+    sense : of the live load
+    """
+    rough = replace(run.settings, tolerance=max(run.settings.tolerance, ROUGH_TOLERANCE))
+    kind = "associative" if sense > 0.0 else "reverse"
+    while True:
+        form = associative_form(run.program)
+        program = form.cone_program if sense > 0.0 else form.reversed_program
+        solution = solved_once(run, cone_solver(program, rough, run.log), kind, sense)
+        more = run.conditions.with_exceeded(form.forces(solution)) if solution.status in WITH_VALUE else None
+        if more is None:
+            return form, solution
+        run.conditions = more
+
+
+def _first_solution(run: AssociativeRun) -> tuple[AssociativeForm, ConeSolution]:
+    """Of the program whose forces keep within all conditions."""
+    while True:
+        form = associative_form(run.program)
+        solution = solved_once(run, cone_solver(form.cone_program, run.settings, run.log), "associative", 1.0)
+        valued = solution.status in WITH_VALUE and not says_it_falls(run, solution)
+        more = run.conditions.with_exceeded(form.forces(solution)) if valued else None
+        if more is None:
+            return form, solution
+        run.conditions = more
+
+
+def _of_whole(run: AssociativeRun, answer: ProvedSolution) -> ProvedSolution:
+    gap, certificate, of_whole = answer.gap, answer.certificate, run.conditions.of_whole
+    return replace(
+        answer,
+        gap=None if gap is None else replace(gap, velocities=of_whole(gap.velocities)),
+        certificate=None if certificate is None else of_whole(certificate),
+    )
+
+
+def solve_until_proved(run: AssociativeRun, form: AssociativeForm, solution: ConeSolution) -> ProvedSolution:
+    """What one method proves; where that leaves it open the other, then the first as sharply as it can.
+
+    solution : of the form, by the first method
+    """
+    first = best = _judged(run, form, solution)
     sharpest = replace(run.settings, tolerance=min(run.settings.tolerance, SHARPEST))
     other = replace(run.settings, tolerance=max(SHARPER * run.settings.tolerance, SHARPEST))
     if run.settings.solver == "auto":
@@ -124,11 +196,16 @@ def _answer(run: AssociativeRun, form: AssociativeForm, unit: float, settings: S
     solution = solved_once(run, solver, "associative", unit)
     if unit != 1.0:
         solution = replace(solution, x=solution.x * unit, objective=solution.objective * unit)
+    return _judged(run, form, solution)
+
+
+def _judged(run: AssociativeRun, form: AssociativeForm, solution: ConeSolution) -> ProvedSolution:
+    """A solution, and what of it can be proved."""
     if solution.status in (Status.TIME_LIMIT, Status.ITERATION_LIMIT, Status.UNBOUNDED):
         return ProvedSolution(solution, form)
     certificate = proved_certificate(run, form, solution)
     has_value = certificate is None and solution.status in WITH_VALUE and not says_it_falls(run, solution)
-    return ProvedSolution(solution, form, _proved(form, solution) if has_value else None, certificate)
+    return ProvedSolution(solution, form, _proved(run, form, solution) if has_value else None, certificate)
 
 
 def is_decided(run: AssociativeRun, answer: ProvedSolution) -> bool:
@@ -182,10 +259,15 @@ def says_it_falls(run: AssociativeRun, solution: ConeSolution) -> bool:
     return solution.status is Status.NO_EQUILIBRIUM or (solution.status in WITH_VALUE and negative)
 
 
-def _proved(form: AssociativeForm, solution: ConeSolution) -> ProvedBounds:
-    """Bounds that a solution proves."""
+def _proved(run: AssociativeRun, form: AssociativeForm, solution: ConeSolution) -> ProvedBounds:
+    """Bounds that a solution proves; none by forces that exceed conditions that are not taken in."""
     state = CollapseState(form.forces(solution), form.velocities(solution), form.load_factor(solution), np.nan)
-    return proved_bounds(form.program, state, form.slacks(solution))
+    gap = proved_bounds(form.program, state, form.slacks(solution))
+    more = run.conditions.with_exceeded(gap.forces)
+    if more is None:
+        return gap
+    run.exceeded = more
+    return replace(gap, static=np.nan, gap=np.nan)
 
 
 def _size(run: AssociativeRun, answer: ProvedSolution) -> float:

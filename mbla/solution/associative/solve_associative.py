@@ -26,10 +26,12 @@ from mbla.solution.associative.proved_solution import (
     AssociativeRun,
     ProvedSolution,
     proved_certificate,
+    proved_solution,
     says_it_falls,
-    solve_until_proved,
     solved_once,
+    take_in_exceeded,
 )
+from mbla.solution.associative.taken_conditions import TakenConditions
 from mbla.solution.cone_solvers.choice import cone_solver
 from mbla.solution.cone_solvers.cone_solution import ConeSolution, Log
 from mbla.solution.nonassociative.collapse_state import CollapseState, collapse_state
@@ -90,11 +92,11 @@ def solve_associative(
     carried     : the dead load alone is known to be carried
     states      : of stress-free assemblies that are known, to which that of this one is added
     """
-    run = AssociativeRun(program, settings, log, first, [])
+    run = AssociativeRun(TakenConditions.least(program), settings, log, first, [])
     falling = _fall_of_what_nothing_touches(program)
     if falling.any():
-        return _no_equilibrium(run, falling)
-    answer = solve_until_proved(run, associative_form(program))
+        return _no_equilibrium(run, run.conditions.of_blocks(falling))
+    answer = proved_solution(run)
     if answer.certificate is not None:
         return _no_equilibrium(run, answer.certificate)
     if answer.gap is None and answer.solution.status is not Status.UNBOUNDED:
@@ -106,15 +108,25 @@ def solve_associative(
         shown = program.facts.settling_support and answer.gap is not None and np.isfinite(answer.gap.static)
         return _with_dead_load(run, answer, proved=bool(shown))
     state = stress_free_state(program, states)
-    result = _with_dead_load(run, answer, proved=_proves(run, state))
-    return replace(result, stress_free=state)
+    below = None if program.conditions is None else _carried_at_rest(run, state)
+    result = _with_dead_load(run, answer, proved=below is not None or _proves(run, state))
+    return replace(result, stress_free=state, below=result.below or below)
+
+
+def _carried_at_rest(run: AssociativeRun, state: StressFree) -> tuple[FloatArray, float] | None:
+    """Forces on the stress-free assembly that carry the dead load alone within all conditions on interfaces."""
+    if state.rest is None or run.program.facts.settling_support:
+        return None
+    points = replace(run.program, conditions=None).without_live_load()
+    repaired = repaired_forces(points, state.rest.forces, 0.0)
+    return (repaired[0], 0.0) if repaired is not None and run.conditions.keep(repaired[0]) else None
 
 
 def _proves(run: AssociativeRun, state: StressFree) -> bool:
     """Whether the forces on the stress-free assembly, without springs, prove that the dead load alone is carried."""
     if state.rest is None:
         return False
-    if run.program.conditions is not None:  # which these forces need not fulfil
+    if run.conditions.whole.conditions is not None:  # which these forces need not fulfil
         return False
     if run.program.facts.settling_support:  # with the reaction that it has while it is held
         return _carrying(run, state.rest.forces, state.rest.load_factor) is not None
@@ -134,16 +146,12 @@ def _with_dead_load(run: AssociativeRun, answer: ProvedSolution, *, proved: bool
     """
     reverse, carried, below = answer.solution, proved or not run.program.dead_load.any(), None
     if not carried:
-        settings = run.settings
-        if settings.solver == "auto":
-            settings = replace(settings, solver=answer.solution.solver)
-        reverse = solved_once(run, cone_solver(answer.form.reversed_program, settings, run.log), "reverse", -1.0)
-        below = _carried(run, answer.form, reverse)
+        form, reverse, below = _reversed(run, answer)
         carried = below is not None
     if not carried:
-        certificate = proved_certificate(run, answer.form, reverse)
+        certificate = proved_certificate(run, form, reverse)
         if certificate is not None:
-            return _no_equilibrium(run, certificate)
+            return _no_equilibrium(run, run.conditions.of_whole(certificate))
         if says_it_falls(run, reverse):
             return _undecided(run, reverse)
         if reverse.status not in (*WITH_VALUE, Status.UNBOUNDED):
@@ -154,6 +162,34 @@ def _with_dead_load(run: AssociativeRun, answer: ProvedSolution, *, proved: bool
     if answer.solution.status is Status.UNBOUNDED:
         return replace(_without_state(run, Status.UNBOUNDED, LOCKED), lock=_lock(run, answer))
     return replace(_with_load_factor(run, answer), below=below)
+
+
+def _reversed(
+    run: AssociativeRun, answer: ProvedSolution
+) -> tuple[AssociativeForm, ConeSolution, tuple[FloatArray, float] | None]:
+    """The program with the live load reversed, its solution, and ``_carried`` of it within all conditions."""
+    settings, form = run.settings, answer.form
+    if settings.solver == "auto":
+        settings = replace(settings, solver=answer.solution.solver)
+    if not run.conditions.are_all:
+        form, solution = take_in_exceeded(run, -1.0)
+        below = _carried(run, form, solution)
+        if below is not None and run.conditions.with_exceeded(below[0]) is None:
+            return form, solution, below
+    while True:
+        solution = solved_once(run, cone_solver(form.reversed_program, settings, run.log), "reverse", -1.0)
+        below, more = None, None
+        if solution.status is Status.UNBOUNDED and not run.conditions.are_all:
+            more = run.conditions.with_all()
+        elif solution.status in WITH_VALUE:
+            more = run.conditions.with_exceeded(form.forces(solution))
+        if more is None:
+            below = _carried(run, form, solution)
+            more = None if below is None else run.conditions.with_exceeded(below[0])
+        if more is None:
+            return form, solution, below
+        run.conditions = more
+        form = associative_form(run.program)
 
 
 def _lock(run: AssociativeRun, answer: ProvedSolution) -> FloatArray | None:
@@ -174,9 +210,10 @@ def _locked_both_ways(run: AssociativeRun, settings: SolverSettings) -> Associat
     run.records.append(solution.record(number, "gravity", np.nan))
     if status in WITH_VALUE:
         return _without_state(run, Status.UNBOUNDED, LOCKED)
-    certificate = falling_motion(run.program, -form.velocities(solution.z))
+    motion = run.conditions.of_blocks(form.velocities(solution.z))
+    certificate = falling_motion(run.program, -motion)
     if certificate is None:
-        certificate = falling_motion(run.program, form.velocities(solution.z))
+        certificate = falling_motion(run.program, motion)
     return _undecided(run, solution) if certificate is None else _no_equilibrium(run, certificate)
 
 
@@ -194,7 +231,8 @@ def _with_load_factor(run: AssociativeRun, answer: ProvedSolution) -> Associativ
             f"forces prove a load factor of {gap.static * live:.8g}, velocities one of {gap.kinematic * live:.8g}: "
             f"{apart}"
         )
-    program, conditions = run.program, run.program.conditions
+    program = run.conditions.whole
+    conditions = program.conditions
     if conditions is None:
         state = collapse_state(program, program.limits.friction, gap.forces, gap.velocities, gap.load_factor)
     else:

@@ -64,55 +64,33 @@ class Crushing:
 
     def values(self, resultants: FloatArray, normal: FloatArray) -> FloatArray:
         """g, (k, m)."""
-        (q, n, p), (first, second, lead) = self._forms(resultants)
-        root = np.where((first > 0.0) & (second > 0.0), np.sqrt(np.abs(first * second)), np.minimum(first, second))
-        at_edges = q - (n * n + 3.0 * p * p) / self.pieces.strength
-        return np.concatenate([at_edges, root - np.maximum(lead, 0.0) ** 1.5 / self._root])
+        return self.pieces.values(resultants)
 
     def gradients(self, resultants: FloatArray, normal: FloatArray) -> FloatArray:
         """∇g, (k, c, m)."""
-        (_, n, p), (first, second, lead) = self._forms(resultants)
+        (_, n, p), (first, second, lead) = self.pieces.forms(resultants)
         (dq, dn, dp), (d_first, d_second, d_lead) = self._slopes
         at_edges = dq - (2.0 / self.pieces.strength) * (n[:, None] * dn + 3.0 * p[:, None] * dp)
         turn = 0.5 * np.sqrt(first * second)[:, None]
         at_corners = turn * (d_first / first[:, None] + d_second / second[:, None])
-        at_corners -= (1.5 * np.sqrt(lead) / self._root)[:, None] * d_lead
+        at_corners -= (1.5 * np.sqrt(lead) / self.pieces.root)[:, None] * d_lead
         return np.concatenate([at_edges, at_corners])
 
     def derivatives(self, resultants: FloatArray, normal: FloatArray) -> Derivatives:
         """Values, gradients and Hessians."""
-        _, (first, second, lead) = self._forms(resultants)
+        _, (first, second, lead) = self.pieces.forms(resultants)
         _, (d_first, d_second, d_lead) = self._slopes
         turn = d_first / first[:, None] - d_second / second[:, None]
         at_corners = -(0.25 * np.sqrt(first * second))[:, None, None] * _squares(turn)
-        at_corners -= (0.75 / (np.sqrt(lead) * self._root))[:, None, None] * _squares(d_lead)
+        at_corners -= (0.75 / (np.sqrt(lead) * self.pieces.root))[:, None, None] * _squares(d_lead)
         hessians = np.concatenate([self._of_edges, at_corners])
         return Derivatives(self.values(resultants, normal), self.gradients(resultants, normal), hessians)
-
-    def _forms(self, resultants: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Linear forms of edges, (3, n_edges, m), and of corners, (3, n_corners, m)."""
-        edges, corners = (
-            constant + sum(slope * own for slope, own in zip(slopes, resultants, strict=True))
-            for constant, slopes in self._linear
-        )
-        return edges, corners
-
-    @cached_property
-    def _linear(self) -> list[tuple[FloatArray, list[FloatArray]]]:
-        """Constants of the forms of edges and corners, (3, k, m), and their factors of each resultant."""
-        forms = [np.ascontiguousarray(own.transpose(2, 1, 0, 3)) for own in (self.pieces.edges, self.pieces.corners)]
-        return [(own[0], list(own[1:])) for own in forms]
 
     @cached_property
     def _slopes(self) -> tuple[FloatArray, FloatArray]:
         """Derivatives of the forms, (3, n_edges, c, m) and (3, n_corners, c, m)."""
         edges, corners = self.pieces.edges[:, :, 1:], self.pieces.corners[:, :, 1:]
         return edges.transpose(1, 0, 2, 3), corners.transpose(1, 0, 2, 3)
-
-    @cached_property
-    def _root(self) -> FloatArray:
-        """√(K F), (m,)."""
-        return np.asarray(np.sqrt(self.pieces.factor * self.pieces.strength))
 
     @cached_property
     def _of_edges(self) -> FloatArray:

@@ -25,34 +25,41 @@ from mbla.solution.settings import solver_settings
 from mbla.solution.verification.interface_laws import InterfaceLaws, crushing_excess
 from tests.line import BLOCK, WALL, line_of
 from tests.program.resultants.test_shapes import shapes_of
+from tests.program.resultants.test_stress_blocks import copies
 
 RECTANGLE = shapes_of((0, 0), (1.25, 0), (1.25, 0.75), (0, 0.75))
 TRIANGLE = shapes_of((0, 0), (1.0, 0), (0.25, 0.75))
 PARALLELOGRAM = shapes_of((0, 0), (1.25, 0), (1.75, 0.75), (0.5, 0.75))
+PENTAGON = shapes_of((0, 0), (1.0, 0), (1.25, 0.5), (0.5, 1.0), (-0.25, 0.5))
 FORMS = pytest.mark.parametrize("shapes", [RECTANGLE, TRIANGLE], ids=["rectangle", "triangle"])
 
 
-def least_power(rows: ConditionRows, resultants: FloatArray) -> float:
-    """Least of r·(motion) + cost over the multipliers in their cones, as large as 1 at most: 0 where r is allowed."""
-    power = rows.motion.T @ resultants + rows.cost
-    n, first = len(power), np.cumsum(rows.cone_sizes) - rows.cone_sizes
-    heads = rows.cones[first].sum(axis=0)
+def least_powers(rows: ConditionRows, resultants: FloatArray) -> FloatArray:
+    """Least of r·(motion) + cost for every r, (n, 6), over multipliers in their cones, as large as 1 at most, (n,).
+
+    0 where r is allowed. One program of independent ones.
+    """
+    power = np.asarray(resultants @ rows.motion.toarray() + rows.cost)
+    n, count = power.shape
     order = np.argsort(rows.cone_sizes > 1, kind="stable")
-    where = [np.arange(first[k], first[k] + rows.cone_sizes[k]) for k in order]
-    cones = rows.cones[np.concatenate(where)]
-    n_lines = int((rows.cone_sizes == 1).sum())
+    first = np.cumsum(rows.cone_sizes) - rows.cone_sizes
+    heads, n_lines = rows.cones[first].sum(axis=0), int((rows.cone_sizes == 1).sum())
+    lines = rows.cones[first[order[:n_lines]]]
+    cones = rows.cones[np.concatenate([np.arange(first[k], first[k] + rows.cone_sizes[k]) for k in order[n_lines:]])]
+    every = sp.eye_array(n)
+    parts = [sp.kron(every, part) for part in (heads[None, :], -lines, -cones)]
+    matrix = sp.csc_array(sp.vstack(parts))
     program = ConeProgram(
-        cost=power,
-        matrix=sp.csc_array(sp.vstack([sp.csr_array(heads[None, :]), -cones])),
-        rhs=np.concatenate([[1.0], np.zeros(cones.shape[0])]),
-        n_half_lines=n_lines + 1,
+        cost=power.ravel(),
+        matrix=matrix,
+        rhs=np.concatenate([np.ones(n), np.zeros(matrix.shape[0] - n)]),
+        n_half_lines=n * (n_lines + 1),
         n_cones=0,
         n_equations=0,
-        further_cones=tuple(int(size) for size in rows.cone_sizes[order][n_lines:]),
+        further_cones=n * tuple(int(size) for size in rows.cone_sizes[order][n_lines:]),
     )
-    assert program.matrix.shape[1] == n
     found = ClarabelProgram(program, solver_settings(AnalysisSection()), lambda *_: None).solve(1, 1.0)
-    return float(power @ found.x)
+    return np.asarray((power * found.x.reshape(n, count)).sum(axis=1))
 
 
 def torsion_allowed(limits: TorsionLimits, shapes: InterfaceShapes, r: FloatArray) -> bool:
@@ -75,9 +82,11 @@ def random_resultants(draw: np.random.Generator, normal: float, size: float) -> 
     return np.concatenate([[normal], draw.uniform(-size, size, 3), 0.3 * draw.uniform(-size, size, 2)])
 
 
-def agrees(rows: ConditionRows, r: FloatArray, allowed: bool) -> bool:
-    least = least_power(rows, r)
-    return least > -1e-7 if allowed else least < -1e-12
+def agree(rows: ConditionRows, resultants: list[FloatArray], allowed: list[bool]) -> None:
+    least = least_powers(rows, np.array(resultants))
+    assert set(allowed) == {False, True}
+    for r, value, within in zip(resultants, least, allowed, strict=True):
+        assert value > -1e-7 if within else value < -1e-12, (r, within)
 
 
 @FORMS
@@ -85,14 +94,11 @@ def agrees(rows: ConditionRows, r: FloatArray, allowed: bool) -> bool:
 def test_torsion(shapes: InterfaceShapes, friction: float, cohesion: float) -> None:
     limits = torsion_limits(shapes, np.array([friction]), np.array([cohesion]))
     rows = torsion_rows(limits, 1)
-    draw, seen = np.random.default_rng(1), set()
-    for _ in range(60):
-        r = random_resultants(draw, draw.uniform(0.25, 2.0), 0.5)
+    draw = np.random.default_rng(1)
+    drawn = [random_resultants(draw, draw.uniform(0.25, 2.0), 0.5) for _ in range(60)]
+    for r in drawn:
         r[MN] *= limits.radii[0]
-        allowed = torsion_allowed(limits, shapes, r)
-        assert agrees(rows, r, allowed), (r, allowed)
-        seen.add(allowed)
-    assert seen == {False, True}
+    agree(rows, drawn, [torsion_allowed(limits, shapes, r) for r in drawn])
 
 
 def pieces_of(shapes: InterfaceShapes, strength: float, tension: float) -> Pieces:
@@ -104,30 +110,34 @@ def pieces_of(shapes: InterfaceShapes, strength: float, tension: float) -> Piece
     return with_conditions(plates[kind], ("parallelogram", "triangle")[kind], total, np.array([tension]))
 
 
-@pytest.mark.parametrize("shapes", [RECTANGLE, PARALLELOGRAM, TRIANGLE], ids=["rectangle", "parallelogram", "triangle"])
+@pytest.mark.parametrize(
+    "shapes",
+    [RECTANGLE, PARALLELOGRAM, TRIANGLE, PENTAGON],
+    ids=["rectangle", "parallelogram", "triangle", "pentagon, of five triangles"],
+)
 @pytest.mark.parametrize("tension", [0.0, 0.25])
 def test_crushing(shapes: InterfaceShapes, tension: float) -> None:
     """As the verification has it: what a stress between nothing and the strength carries."""
-    none = np.zeros(1)
-    laws = InterfaceLaws(shapes, none, none, none + tension, none + 2.0 + tension, none > 0.0, none == 0.0)
+    none = np.zeros(60)
+    every = copies(shapes, len(none))
+    laws = InterfaceLaws(every, none, none, none + tension, none + 2.0 + tension, none > 0.0, none == 0.0)
     # r = (N, Σ n x_1, Σ n x_2) from the resultants
     places = (np.array([1.0, -1.0, 1.0]), ([0, 1, 2], [N, M2, M1]))
     map_ = sp.csr_array(sp.coo_array(places, shape=(3, 6)))
     found = CrushingOfProgram(map_, sp.csr_array(map_.T), (pieces_of(shapes, 2.0, tension),), np.ones(2, dtype=bool))
     of_program = crushing_conditions(found)
     rows = ConditionRows(of_program.velocities, of_program.cost, of_program.cones, of_program.cone_sizes)
-    draw, seen = np.random.default_rng(2), set()
-    for _ in range(60):
-        r = random_resultants(draw, draw.uniform(-0.5, 2.5), 0.75)
-        allowed = bool(crushing_excess(laws, r[None])[0] <= 0.0)
-        assert agrees(rows, r, allowed), (r, allowed)
-        seen.add(allowed)
-    assert seen == {False, True}
+    draw = np.random.default_rng(2)
+    drawn = [random_resultants(draw, draw.uniform(-0.5, 2.5), 0.75) for _ in none]
+    allowed = (crushing_excess(laws, np.array(drawn)) <= 0.0).tolist()
+    agree(rows, drawn, allowed)
+    for reserves in of_program.reserves:
+        assert [bool(reserves.of(r).min() >= 0.0) for r in drawn] == allowed
 
 
 @pytest.mark.parametrize(
     ("text", "strength", "of_each"),
-    [(WALL, (), (8, 2)), (BLOCK, (), (8, 2)), (BLOCK, ("joints.dry.compressive_strength=1e6",), (8 + 34, 2 + 10))],
+    [(WALL, (), (8, 2)), (BLOCK, (), (8, 2)), (BLOCK, ("joints.dry.compressive_strength=1e6",), (8 + 72, 2 + 28))],
     ids=["wall", "block", "block that can crush"],
 )
 def test_every_interface_adds_the_unknowns_and_cones_of_its_conditions(
@@ -135,8 +145,8 @@ def test_every_interface_adds_the_unknowns_and_cones_of_its_conditions(
 ) -> None:
     """Torsion: 8 unknowns, 2 cones.
 
-    Crushing of a rectangle: at its corners, and of what is left of full stress, 5 unknowns and one for each of 4
-    bounds, 3 cones; 4 of each of 4 edges, one cone. Three follow from its motion, which has three.
+    Crushing of a rectangle: at its 4 corners, and of what is left of full stress, 5 unknowns and one for each of 2
+    bounds, 3 cones; 4 of each of 4 edges, one cone.
     """
     line = line_of(text, *strength)
     twisting = TwistingInterfaces.of(line.model, line.contacts)

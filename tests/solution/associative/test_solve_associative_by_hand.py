@@ -13,6 +13,7 @@ from mbla.solution.associative import solve_associative as associative
 from mbla.solution.associative.associative_form import associative_form
 from mbla.solution.associative.proved_solution import AssociativeRun
 from mbla.solution.associative.solve_associative import AssociativeResult, solve_associative
+from mbla.solution.associative.taken_conditions import TakenConditions
 from mbla.solution.cone_solvers.choice import cone_solver
 from mbla.solution.cone_solvers.cone_solution import ConeSolution
 from mbla.solution.settings import SolverSettings
@@ -71,7 +72,10 @@ def test_without_a_proof_that_the_dead_load_is_carried_there_is_no_load_factor(
 
 def test_forces_that_are_no_numbers_carry_nothing() -> None:
     program = sliding()
-    form, run = associative_form(program), AssociativeRun(program, SETTINGS, lambda record: None, 1, [])
+    form, run = (
+        associative_form(program),
+        AssociativeRun(TakenConditions.least(program), SETTINGS, lambda record: None, 1, []),
+    )
     right = answer(program, Status.SOLVED)
     none = replace(right, z=np.full_like(right.z, np.nan))
     assert associative._carried(run, form, none) is None
@@ -90,7 +94,7 @@ def test_what_no_push_of_either_sign_moves_may_fall_all_the_same(text: str, stat
 
 def test_where_no_solver_says_whether_it_falls_nothing_is_claimed(monkeypatch: pytest.MonkeyPatch) -> None:
     program = line_of(HANGING, ACROSS).program
-    run = AssociativeRun(program, SETTINGS, lambda record: None, 1, [])
+    run = AssociativeRun(TakenConditions.least(program), SETTINGS, lambda record: None, 1, [])
     monkeypatch.setattr(associative, "falling_motion", lambda *arguments: None)
     assert associative._locked_both_ways(run, SETTINGS).status is Status.NOT_VERIFIED
     monkeypatch.setattr(associative, "cone_solver", said(Status.TIME_LIMIT))
@@ -104,7 +108,7 @@ def test_where_no_solver_says_whether_it_falls_nothing_is_claimed(monkeypatch: p
 def test_the_motion_of_a_fall_is_found_in_either_sense(sense: float, monkeypatch: pytest.MonkeyPatch) -> None:
     """A ray of the dual may come with either sign: the dead load does work in one of them."""
     program = line_of(HANGING, ACROSS).program
-    run = AssociativeRun(program, SETTINGS, lambda record: None, 1, [])
+    run = AssociativeRun(TakenConditions.least(program), SETTINGS, lambda record: None, 1, [])
     velocities = StaticForm.velocities
     monkeypatch.setattr(StaticForm, "velocities", lambda form, z: sense * velocities(form, z))
     result = associative._locked_both_ways(run, SETTINGS)
