@@ -53,6 +53,7 @@ GIVEN_TO_IT = {
     "solution/further/geometric_safety/geometric_safety.py": "the claim of a factor of safety",
     "solution/further/geometric_safety/pressed.py": "loads of pressed joints",
     "solution/further/sensitivity/slopes.py": "the claim of slopes",
+    "solution/further/strengthening/strengthening.py": "what may be added to a structure",
     "solution/further/sensitivity/structures.py": "a structure with another parameter",
     "solution/pushover/pushover.py": "the claim of a pushover",
     "solution/sequence/tilt_circle.py": "loads of a tilting table",

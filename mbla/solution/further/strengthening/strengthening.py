@@ -4,15 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
 from mbla.assembly.assembly import Assembly
 from mbla.model.model import LoadCase, Model
-from mbla.solution.cone_solvers.cone_solution import Log
-from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Status
+
+if TYPE_CHECKING:  # the verification sees this record
+    from mbla.solution.cone_solvers.cone_solution import Log
+    from mbla.solution.settings import SolverSettings
 
 
 @dataclass(frozen=True)
