@@ -56,6 +56,7 @@ COMPONENTS = {
     "direction": ("N", "T1", "T2"),
     "component": ("x", "y", "z", "rx", "ry", "rz"),
     "pair": ("a", "b"),
+    "end": ("lower", "upper"),
 }
 """what is along these dimensions, as columns of tables are named: ``contact_forces_N``"""
 
