@@ -137,18 +137,16 @@ def _proof(repair: _AtPoints, given: Mechanics) -> Mechanics:
         near = found is not None and abs(bound - factor) <= LARGE_GAP * abs(bound)
         if near and len(repair.program.dead_load) > LARGE:
             break
-    mechanism, motions = claimed
-    live_power = case.powers(mechanism)[1]
-    size = live_power if live_power > 0.0 else 1.0
-    velocities = case.velocities(mechanism / size)
+    mechanism, motions = claimed  # of a live power of 1 still, as the least change leaves it
+    velocities = case.velocities(mechanism)
     return replace(
         given,
         load_factor=factor,
         contact_forces=forces,
         contact_velocities=velocities,
-        mechanism=mechanism / size,
+        mechanism=mechanism,
         modes=contact_modes(forces, velocities, case.limits, case.limits.dilatancy_by("associative")),
-        interface_motions=None if motions is None else motions / size,
+        interface_motions=motions,
     )
 
 

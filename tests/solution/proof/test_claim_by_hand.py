@@ -79,8 +79,8 @@ def test_the_motion_of_the_least_bound_is_claimed(interfaces: bool, dry: Line, m
     assert rise(claimed(dry, claim(given(dry)), interfaces)) == pytest.approx(0.25)
 
 
-def test_the_motion_has_a_live_power_of_one(dry: Line, mended: dict[str, Any]) -> None:
-    mended["motions"] = [tuple(4.0 * value for value in slides(0.0625))]
+def test_velocities_are_those_of_the_motion(dry: Line, mended: dict[str, Any]) -> None:
+    mended["motions"] = [slides(0.0625)]
     found = claimed(dry, claim(given(dry))).associative
     assert found is not None
     assert found.mechanism.tolist() == [list(slides(0.0625))]
