@@ -71,14 +71,18 @@ def distinct(values: IntArray) -> IntArray:
 
 
 def alike(one: Any, other: Any) -> bool:
-    """Whether two records are the same in every number of their arrays, sparse matrices and records; nan never is."""
+    """Whether two records are the same in every number of their arrays, sparse matrices and records; nan never is.
+
+    In which order the entries of a sparse matrix are stored does not count: scipy sorts them where it needs that.
+    """
     if one is other:
         return True
     if type(one) is not type(other):
         return False
     if isinstance(one, np.ndarray):
         return one.dtype == other.dtype and np.array_equal(one, other)
-    if hasattr(one, "indptr"):
+    if hasattr(one, "sorted_indices"):
+        one, other = one.sorted_indices(), other.sorted_indices()
         names: tuple[str, ...] = ("shape", "indptr", "indices", "data")
     elif is_dataclass(one):
         names = tuple(each.name for each in fields(one))

@@ -44,4 +44,9 @@ def test_records_are_alike_where_no_bit_differs() -> None:
     assert not any(alike(wall(), other) for other in others)
     assert not alike(beside, Wall("wall", np.zeros(2), sp.csr_array((2, 2)), wall(2.0)))
     assert not alike(np.zeros(2), np.zeros(2, dtype=np.float32))
+    stored = [
+        sp.csr_array((np.array(data), np.array(columns), [0, 2]))
+        for data, columns in (([1, 2], [0, 1]), ([2, 1], [1, 0]))
+    ]
+    assert alike(*stored), "however it is stored"
     assert not alike(wall(np.nan), wall(np.nan))
