@@ -78,10 +78,10 @@ class KinematicForm:
         """Non-dimensional velocities of the free blocks, (n_rows,)."""
         return x[: len(self.program.dead_load)]
 
-    def of_conditions(self, x: FloatArray) -> FloatArray:
-        """Unknowns of the conditions on interfaces, (n_unknowns,)."""
+    def all_velocities(self, x: FloatArray) -> FloatArray:
+        """The same with the unknowns of conditions on interfaces behind, (n_rows + n_unknowns,)."""
         n, conditions = len(self.program.dead_load), self.program.conditions
-        return x[n : n if conditions is None else n + len(conditions.cost)]
+        return x[: n if conditions is None else n + len(conditions.cost)]
 
     def contact_forces(self, z: FloatArray) -> FloatArray:
         """Non-dimensional contact forces from the dual variables, (n_points, components)."""

@@ -21,7 +21,6 @@ from mbla.deck.sections.accuracy import knobs_of
 from mbla.deck.text.include import confined
 from mbla.errors import FileError, Notice
 from mbla.process.stopwatch import Stopwatch
-from mbla.program.build import program_notices
 from mbla.program.reductions.steps import ReductionStep
 from mbla.results.results import CaseResult, DeckRecord, Results, now
 from mbla.solution.settings import SolverSettings
@@ -194,7 +193,6 @@ def notices_of(deck: Deck, assembly: Assembly) -> tuple[Notice, ...]:
         *deck.notices,
         *model.notices,
         *contacts.report.notices,
-        *program_notices(model, contacts, deck.analysis),
     )
 
 

@@ -26,7 +26,7 @@ from mbla.model import Model, build_model
 from mbla.model.model import LoadCase
 from mbla.model.settlement import with_reference
 from mbla.program.assemble import yield_limits
-from mbla.program.build import crushable_interfaces, takes_stress_blocks
+from mbla.program.build import crushable_interfaces
 from mbla.results.exit_status import UNEXPECTED, exit_code
 from mbla.results.hdf5.content import content_of
 from mbla.results.hdf5.layout import Content, Value
@@ -182,7 +182,7 @@ def _as_asked_for(solution: Solution, load_case: LoadCase, deck: Deck, *, crusha
         solution,
         flow_rule=analysis.flow_rule,
         contact_model=analysis.contact_model,
-        stress_blocks=crushable and takes_stress_blocks(analysis),
+        stress_blocks=crushable,
         solver=settings.solver,
         tolerance_requested=solution.tolerance_requested
         if solution.tolerance_requested is None or solution.tolerance_requested in asked

@@ -15,7 +15,7 @@ from mbla.solution.law.interfaces import NONE, Interfaces
 from mbla.solution.mechanics import certificate_of, mechanics_of
 from mbla.solution.nonassociative.collapse_state import CollapseState
 from mbla.solution.nonassociative.least_found import looks_lower
-from mbla.solution.nonassociative.locking import locking_forces
+from mbla.solution.nonassociative.locking import locking_forces, locking_forces_of_part
 from mbla.solution.part_context import PartContext
 from mbla.solution.part_result import PartResult
 from mbla.solution.parts import assemble_parts
@@ -109,13 +109,22 @@ def _factor(state: CollapseState | None) -> float:
 
 
 def _known_lock(solved: SolvedParts) -> FloatArray | None:
-    """Forces of all parts that balance the live load alone, (n_points, 3), where every loaded part has such."""
-    loaded = [
-        (solved.parts[part], result.associative.lock) for part, result in enumerate(solved.results) if result.loaded
-    ]
-    forces = [program.lift.contact_forces(lock) for program, lock in loaded if lock is not None]
-    if not forces or len(forces) < len(loaded):
+    """Forces of all parts that balance the live load alone, (n_points, 3), with those that rays of programs prove.
+
+    None where no ray does, or a loaded part has none.
+    """
+    each = zip(solved.parts, solved.results, strict=True)
+    loaded = [(part, result.associative.lock) for part, result in each if result.loaded]
+    if all(lock is None for _, lock in loaded):
         return None
+    forces = list[FloatArray]()
+    for program, known in loaded:
+        lock = known
+        if lock is None and program.conditions is None:
+            lock = locking_forces_of_part(program, solved.context.settings, solved.context.log)
+        if lock is None:
+            return None
+        forces.append(program.lift.contact_forces(lock))
     scaling = solved.parts[0].full.scaling
     return scaling.forces(np.sum(forces, axis=0)) / scaling.live
 

@@ -17,7 +17,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from mbla.program.build import CaseProgram, crushable_interfaces
+from mbla.program.build import CaseProgram
 from mbla.program.program import Program
 from mbla.program.reductions import Reduced
 from mbla.program.resultants.twisting_interfaces import TwistingInterfaces
@@ -87,9 +87,7 @@ def _with_torsion(program: CaseProgram, settings: SolverSettings) -> Interfaces:
     turned = program.load_case.tilt is not None and not program.load_case.tilt.tangent  # solved for many angles
     spatial = any(part.components == 3 for part in program.reduced.parts)
     model, contacts = program.bodies.model, program.bodies.contacts
-    # points that crush by themselves have no such law
-    at_points = program.crushing is None and crushable_interfaces(model, contacts).any()
-    if turned or not spatial or at_points or not settings.by_torsion:
+    if turned or not spatial or not settings.by_torsion:
         return NONE
     return Interfaces(program.crushing, TwistingInterfaces.of(model, contacts))
 

@@ -16,14 +16,15 @@ from mbla.deck import read_deck
 from mbla.model import build_model
 from tests.properties.random_items import Tree
 from tests.properties.scenes import Scene, solve_scene, value_of
-from tests.trust.certificates.assemblies import assembly, at_points
+from tests.trust.certificates.assemblies import assembly, crushes, without_crushing
 from tests.trust.certificates.rational import exact_case
 from tests.trust.certificates.whole_line import NEAR_ZERO, each
 from tests.trust.counts import record_counts
 from tests.trust.friction_polyhedra import Bracket, bracket_of
 
 LOG = logging.getLogger(__name__)
-FEW, MANY = (2, 12, 52), range(200)
+FEW, CRUSHING, MANY = (2, 12, 52), (2, 12), range(200)
+"""the second: with joints that crush"""
 ROUNDING = 1e-6
 """share of the load factor to which the program and HiGHS are good"""
 
@@ -42,8 +43,24 @@ class BesidePolyhedra:
 
 
 def beside_polyhedra(seed: int) -> BesidePolyhedra:
-    """An assembly by the program and by HiGHS, with joints that crush at points alone."""
-    scene = _scene(at_points(assembly(seed)))
+    """An assembly by the program and by HiGHS, with joints that do not crush."""
+    return _opinion(without_crushing(assembly(seed)))
+
+
+def above_stress_blocks(seed: int) -> BesidePolyhedra | None:
+    """The same where joints crush, in the program as stress blocks, by HiGHS at points, which contain them; else None.
+
+    Forces at points prove nothing for stress blocks.
+    """
+    deck = assembly(seed)
+    if not crushes(deck):
+        return None
+    found = _opinion(deck)
+    return replace(found, bracket=replace(found.bracket, inner=-math.inf, inner_stands=False))
+
+
+def _opinion(deck_tree: Tree) -> BesidePolyhedra:
+    scene = _scene(deck_tree)
     solved = solve_scene(scene)
     case = solved.cases[0]
     bracket = bracket_of(exact_case(solved.model, solved.contacts, case.load_case))
@@ -87,6 +104,13 @@ def test_a_few_brackets(seed: int) -> None:
     assert (found.bracket.inner_stands, found.bracket.outer_stands) == (stands, stands)
 
 
+@pytest.mark.parametrize("seed", CRUSHING)
+def test_stress_blocks_bear_no_more_than_points(seed: int) -> None:
+    found = above_stress_blocks(seed)
+    assert found is not None
+    assert broken_bracket(found) == []
+
+
 def test_what_is_outside_is_found() -> None:
     found = BesidePolyhedra("wall", "solved", 0.5, Bracket(0.499, 0.501, True, True))
     assert broken_bracket(found) == []
@@ -100,7 +124,8 @@ def test_200_brackets() -> None:
     for found in each(beside_polyhedra, MANY):
         LOG.info("%s", found)
         opinions.append(found)
-    assert [fault for found in opinions for fault in broken_bracket(found)] == []
+    crushing = [found for found in each(above_stress_blocks, MANY) if found is not None]
+    assert [fault for found in (*opinions, *crushing) for fault in broken_bracket(found)] == []
     enclosed = [found for found in opinions if math.isfinite(found.value) and decided(found.bracket)]
     standing = sum(found.bracket.outer_stands for found in enclosed)
     widths = [(found.bracket.outer - found.bracket.inner) / max(abs(found.value), NEAR_ZERO) for found in enclosed]

@@ -56,8 +56,8 @@ class ContactPoints(Section):
         None,
         description="parts into which they divide each edge, with points inside too (a grid of (n + 1)² on a "
         "parallelogram); 1: the corners alone, as without the key. Associative flow can load the corners alone, so "
-        "that more points lower torsion only without dilatancy; where points crush (in a pushover, and with other "
-        "schemes and solvers than the default ones) crushing comes down to the stress block",
+        "that more points lower torsion only without dilatancy; in a pushover, where points crush, crushing "
+        "comes down to the stress block",
     )
     spacing: PositiveLength | None = Field(
         None, description="instead of per_edge: greatest distance of the points along the edges"

@@ -43,6 +43,11 @@ class Mirror:
     velocity_map: FloatArray
     force_maps: FloatArray
 
+    def keeps_interfaces(self, interfaces: IntArray) -> bool:
+        """Whether the image of an interface is one, and no pieces of several: of each point, (n_points,), its own."""
+        pairs = np.unique(np.column_stack([interfaces, interfaces[self.point_of]]), axis=0)
+        return len(pairs) == len(np.unique(interfaces))
+
 
 def mirror_candidates(scene: Scene) -> Iterator[FloatArray]:
     """Unit normals, (3,) each, that a mirror plane could have, the likely ones first.

@@ -35,18 +35,25 @@ class Reduced:
 
 
 def reduce_program(
-    model: Model, contacts: Contacts, program: Program, switches: ReductionSwitches, *, associative: bool
+    model: Model,
+    contacts: Contacts,
+    program: Program,
+    switches: ReductionSwitches,
+    *,
+    associative: bool,
+    by_interfaces: bool = False,
 ) -> Reduced:
     """Find and apply the reductions that are switched on.
 
     associative : only then may points inside the hull of others and one of two symmetric halves be left out, since
                   the answer is unique. A half is left out as well about a plane that the deck says to mirror it
+    by_interfaces : conditions hold on interfaces: no half is left out whose interfaces are not images of one another
     """
     # guides come last, on what the other reductions leave; they have the same points
     scene, steps = _with_fewer_points(scene_of(model, contacts, program.full), switches, associative)
     scenes = split_into_parts(scene) if switches.on else [scene]
     steps += _steps_of_parts(scene, scenes, switches)
-    smaller = [_reduced_part(part, switches, associative, model.mirrors) for part in scenes]
+    smaller = [_reduced_part(part, switches, associative, model.mirrors, by_interfaces) for part in scenes]
     steps += _steps_of_planes(scenes, smaller, switches, associative or bool(model.mirrors))
     parts = [  # in the motions that guides allow, and forces by their shares of the area
         program_by_shares(part, _guided(part, own), own.way) for part, own in zip(scenes, smaller, strict=True)
@@ -137,11 +144,15 @@ def _model_size(
     return ModelSize(dimension, planes, len(parts), blocks, points, n_points - points)
 
 
-def _reduced_part(part: Scene, switches: ReductionSwitches, associative: bool, given: Mirrors) -> _Smaller:
+def _reduced_part(
+    part: Scene, switches: ReductionSwitches, associative: bool, given: Mirrors, by_interfaces: bool = False
+) -> _Smaller:
     """The planar program, that of one half with its mirror, or the part's own."""
     mirror = _first_mirror(part, given) if switches.on and len(part.points) else None
     if mirror is not None and is_planar(part, mirror):
         return _Smaller(*planar_program(part, mirror))
+    if mirror is not None and by_interfaces and not mirror.keeps_interfaces(part.interfaces):
+        mirror = None
     if mirror is not None and switches.mirror and (associative or _is_given(part, mirror.normal, given)):
         return _Smaller(*half_of(part, mirror), mirror)
     return _Smaller(part.program, Lift.identity(part.program))

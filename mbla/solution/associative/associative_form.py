@@ -56,8 +56,8 @@ class AssociativeForm:
 
     def velocities(self, solution: ConeSolution) -> FloatArray:
         """Velocities of the mechanism or of a certificate, those of conditions behind, (n_rows + n_unknowns,)."""
-        kinematic, x = self.kinematic, solution.x
-        return np.concatenate([kinematic.velocities(x) / self.row_units, kinematic.of_conditions(x)])
+        blocks, unknowns = np.split(self.kinematic.all_velocities(solution.x), [len(self.row_units)])
+        return np.concatenate([blocks / self.row_units, unknowns])
 
     def slacks(self, solution: ConeSolution) -> FloatArray | None:
         """Of the conditions on interfaces, (n_slacks,); None where there are none."""

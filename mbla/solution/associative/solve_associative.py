@@ -158,7 +158,8 @@ def _with_dead_load(run: AssociativeRun, answer: ProvedSolution, *, proved: bool
             reason = "whether the dead load alone is carried could not be decided: " + reverse.shortfall
             return _without_state(run, reverse.status, reason)
     if answer.solution.status is Status.UNBOUNDED and reverse.status is Status.UNBOUNDED and not proved:
-        return _locked_both_ways(run, run.settings)
+        locked = _locked_both_ways(run, run.settings)
+        return locked if locked.status is not Status.UNBOUNDED else replace(locked, lock=_lock(run, answer))
     if answer.solution.status is Status.UNBOUNDED:
         return replace(_without_state(run, Status.UNBOUNDED, LOCKED), lock=_lock(run, answer))
     return replace(_with_load_factor(run, answer), below=below)

@@ -12,6 +12,7 @@ from mbla.arrays import FloatArray
 from mbla.errors import Message
 from mbla.program.program import Program
 from mbla.program.yield_conditions import yield_violation
+from mbla.solution.associative.condition_cones import ConditionCones
 from mbla.solution.cone_solvers.cone_solution import ConeSolution
 from mbla.solution.solution import PathByStiffness, PathPoint, ProgramRecord, Status
 from mbla.solution.thresholds import NEAR_ZERO, SOLVED_RESIDUAL, STILL
@@ -117,21 +118,34 @@ def collapse_state(
     joint under force that lifts by less than its sliding takes part in the last; what normal forces do where joints
     close is of second order close to the law, and left out.
 
+    Where interfaces move by their conditions, the first has the excess over these that are functions of forces, the
+    second what motions lack in their cones, the third the power of the motions that the conditions do not explain.
+
     slope      : (n_points,) or one for all
     forces     : (n_points, components)  non-dimensional, compression positive
-    velocities : (n_rows,)  non-dimensional
+    velocities : (n_rows,)  non-dimensional; unknowns of conditions on interfaces behind where they move
     """
     limits = program.limits
     v, surplus, unexplained, balance = _unexplained(program, slope, forces, velocities, load_factor)
     crushable = np.isfinite(limits.compression)
     capacity = np.where(crushable, limits.compression, forces[:, 0])
     unexplained += np.abs((capacity - forces[:, 0]) * np.maximum(-surplus, 0.0))
-    speed = max(float(np.linalg.norm(v, axis=1).max(initial=0.0)), 1e-300)
+    blocks, unknowns = np.split(velocities, [len(program.dead_load)])
+    speed = max(float(np.linalg.norm(program.contact_velocities(blocks), axis=1).max(initial=0.0)), 1e-300)
     closes = np.maximum(-v[:, 0], 0.0)
     unexplained += np.abs(forces[:, 0]) * np.where(crushable, 0.0, np.maximum(-surplus - closes, 0.0))
     closing = float(np.where(crushable, 0.0, closes).max(initial=0.0)) / speed
     excess = float(yield_violation(forces, limits).max(initial=0.0))
-    return CollapseState(forces, velocities, load_factor, max(excess, closing, float(unexplained.sum()) / balance))
+    residual = max(excess, closing, float(unexplained.sum()) / balance)
+    conditions = program.conditions if len(unknowns) else None
+    if conditions is None:
+        return CollapseState(forces, velocities, load_factor, residual)
+    further = ConditionCones.of(program)
+    lack = float(further.lack(further.held.T @ velocities).max(initial=0.0)) / speed
+    beyond = max((-float(reserves.of(forces).min(initial=0.0)) for reserves in conditions.reserves), default=0.0)
+    own = abs(float((conditions.velocities.T @ forces.ravel() + conditions.cost) @ unknowns))
+    residual = max(residual, beyond, lack, (float(unexplained.sum()) + own) / balance)
+    return CollapseState(forces, blocks, load_factor, residual, conditions.moved(unknowns))
 
 
 def _unexplained(
@@ -143,7 +157,8 @@ def _unexplained(
     power of the balance, with a floor where load factor and friction are next to nothing.
     """
     limits = program.limits
-    v = program.contact_velocities(velocities)
+    moving = program if len(velocities) == len(program.dead_load) else program.with_own_motions
+    v, velocities = moving.contact_velocities(velocities), velocities[: len(program.dead_load)]
     still = STILL * float(np.abs(velocities).max(initial=0.0))
     if np.abs(v).max(initial=0.0) <= still:
         v = np.zeros_like(v)

@@ -52,7 +52,7 @@ def solve_livesley(program: Program, associative: AssociativeResult, settings: S
     records = (*associative.programs, _record(number, solution, live, change))
     if not valued:
         return broken_off(solution, records)
-    velocities = form.velocities(solution.x)
+    velocities = form.all_velocities(solution.x)
     candidates = (
         collapse_state(program, 0.0, before.forces, velocities, before.load_factor),
         collapse_state(program, 0.0, form.contact_forces(solution.z), velocities, solution.objective),

@@ -57,6 +57,16 @@ def locking_forces(parts: Sequence[Program], settings: SolverSettings, log: Log)
     return None
 
 
+def locking_forces_of_part(program: Program, settings: SolverSettings, log: Log) -> FloatArray | None:
+    """The same of one part without conditions on interfaces, (n_points, components) for a load factor of 1."""
+    for share in FRICTIONS:
+        found = _least_forces(program, share, settings, log)
+        exact = None if found is None else _in_balance(program, found)
+        if exact is not None:
+            return exact
+    return None
+
+
 def locks_at_dilatancy(program: Program, settings: SolverSettings, log: Log) -> bool:
     """Whether forces within cones of the dilatancy angles carry every multiple of the live load, as the solver finds.
 

@@ -80,7 +80,7 @@ def solve_published(
         factors.append(solution.objective)
         change = abs(factors[-1] - factors[-2]) / max(abs(factors[-1]), 1e-12)
         records.append(solution.record(number, "published", program.scaling.load_factor(factors[-1]), change))
-        forces, velocities = form.contact_forces(solution.z), form.velocities(solution.x)
+        forces, velocities = form.contact_forces(solution.z), form.all_velocities(solution.x)
         normal = weight * forces[:, 0] + (1 - weight) * normal
         recent = [*recent, (forces, factors[-1])][-SPREAD_PROGRAMS:]
         now = min(_states(program, slope, recent, velocities), key=lambda state: state.residual)

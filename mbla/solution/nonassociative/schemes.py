@@ -45,7 +45,7 @@ def solve_nonassociative(
     if settings.by_elastic_path:
         slope = slope_of(program, analysis.flow_rule)
         return solve_by_elastic_path(program, associative, slope, settings, log, interfaces)
-    return _published(program, associative, settings, log)
+    return _published(program, associative, settings, log, interfaces)
 
 
 def slope_of(program: Program, flow_rule: str) -> FloatArray:
@@ -53,11 +53,13 @@ def slope_of(program: Program, flow_rule: str) -> FloatArray:
     return program.limits.dilatancy if flow_rule == "dilatancy" else np.zeros(program.n_points)
 
 
-def _published(program: Program, associative: AssociativeResult, settings: SolverSettings, log: Log) -> FlowResult:
+def _published(
+    program: Program, associative: AssociativeResult, settings: SolverSettings, log: Log, interfaces: Interfaces
+) -> FlowResult:
     """The published procedure starts from associative forces; where there are none the path has to do."""
     none = np.zeros(program.n_points)
     if associative.state is None:
-        sequence = solve_by_elastic_path(program, associative, none, settings, log)
+        sequence = solve_by_elastic_path(program, associative, none, settings, log, interfaces)
         return replace(sequence, remarks=(*sequence.remarks, NOT_PUBLISHED))
     from mbla.solution.nonassociative.published import solve_published
 

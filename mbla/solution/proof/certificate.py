@@ -56,7 +56,7 @@ def steepest_fall(program: Program, settings: SolverSettings, log: Log) -> Float
     exact = replace(settings, tolerance=min(settings.tolerance, FALL_TOLERANCE))
     solution = cone_solver(without_live_load, exact, log).solve(1, 0.0)
     blocks = np.arange(len(program.dead_load))
-    velocities = np.concatenate([form.velocities(solution.x), form.of_conditions(solution.x)])
+    velocities = form.all_velocities(solution.x)
     largest = float(np.abs(velocities[blocks]).max(initial=0.0))
     if solution.status not in WITH_VALUE or not largest > CARRIED_SHARE:
         return None

@@ -42,3 +42,23 @@ def test_a_block_that_hangs_on_a_guide_without_an_interface_is_moved_by_any_push
     assert checks.verified
     assert solution.mechanics is not None
     assert solution.mechanics.load_factor == pytest.approx(0.0, abs=1e-12)
+
+
+PRESSED = """  - box: {group: fixed, material: stone, min: [9, 0, 19], max: [10, 1, 20]}
+  - box: {group: fixed, material: stone, min: [9, 1, 19], max: [10, 2, 21]}
+  - box: {group: pressed, material: stone, min: [9, 0, 20], max: [10, 1, 21]}
+
+contacts: {joint: dry}"""
+
+
+@pytest.mark.parametrize("beside", [False, True], ids=["alone", "beside a block that locks by its points"])
+def test_a_wedge_that_locks_does_so_in_proved_forces(beside: bool) -> None:
+    text = (DECKS / "groove_locked.yaml").read_text(encoding="utf-8")
+    if beside:
+        text = text.replace("contacts: {joint: dry}", PRESSED).replace(
+            "supports:\n", "supports:\n  - {blocks: fixed}\n"
+        )
+    solution, checks = convex_of(line_of(text), "associative")
+    assert solution.status is Status.UNBOUNDED
+    assert checks.verified, checks.failures
+    assert solution.lock is not None

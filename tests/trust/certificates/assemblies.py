@@ -50,10 +50,17 @@ def assembly(seed: int, small: bool = False) -> Tree:
     }
 
 
-def at_points(deck: Tree) -> Tree:
-    """The same deck by points: where joints crush, by a solver without conditions on interfaces."""
-    crushes = any("compressive_strength" in law for law in deck["joints"].values())
-    return deck | {"analysis": deck["analysis"] | {"solver": "mbla"}} if crushes else deck
+def crushes(deck: Tree) -> bool:
+    """Whether joints of a deck have a compressive strength."""
+    return any("compressive_strength" in law for law in deck["joints"].values())
+
+
+def without_crushing(deck: Tree) -> Tree:
+    """The same deck with joints that do not crush, whose conditions are those of points alone."""
+    laws = {
+        name: {key: law[key] for key in law if key != "compressive_strength"} for name, law in deck["joints"].items()
+    }
+    return deck | {"joints": laws}
 
 
 def kind_of(deck: Tree) -> str:
