@@ -8,6 +8,7 @@ from dataclasses import dataclass, field, replace
 from mbla.deck.sections.accuracy import PRESETS, knobs_of
 from mbla.deck.sections.analysis import AnalysisSection
 from mbla.model.model import LoadCase
+from mbla.solution.associative.settings import AssociativeSettings
 
 MAX_ITERATIONS = 300
 """Iterations of one program."""
@@ -29,6 +30,7 @@ class SolverSettings:
     torsion        : whether the load factor with torsion of uniform pressure is wanted beside that of contact points
     standing       : whether it is assessed in addition to the load factor
     steps          : length of those of a path of elastic joints, over the usual
+    proof          : how an associative load factor is proved
     analysis       : flow rule, scheme with its parameters, ranges of forces
     """
 
@@ -44,6 +46,7 @@ class SolverSettings:
     torsion: bool = PRESETS["standard"].torsion
     standing: bool = PRESETS["standard"].standing
     steps: float = 1.0
+    proof: AssociativeSettings = field(default_factory=AssociativeSettings, repr=False)
     analysis: AnalysisSection = field(default_factory=AnalysisSection, compare=False, repr=False)
 
     @property

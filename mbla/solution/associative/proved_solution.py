@@ -29,20 +29,6 @@ from mbla.solution.thresholds import GAP_TOLERANCE
 STANDS_MARGIN = 1e-7
 """A load factor is taken as negative only beyond this share of (dead load over live load): below it is solver noise."""
 
-SMALL, NOISE, ZERO_SIZE = 1e-3, 1e-10, 1e-7
-"""Shares of dead over live load: below the first a load factor is computed again in units of its own size, which is not
-known below the second; then the third stands for it."""
-
-SHARPER, SHARPEST, POWERS = 1e-2, 1e-12, (0.5, 1.0)
-"""Factor on the tolerance of the second method, the least tolerance, and powers of the size of a load factor that are
-the second one's units of live power, in turn: an arch at its least thickness is sharpest in its own."""
-
-ROUGH = 1e3
-"""Friction that counts in the second method."""
-
-ROUGH_TOLERANCE = 1e-5
-"""Of programs whose forces only say which conditions they need."""
-
 
 @dataclass
 class AssociativeRun:
@@ -115,7 +101,7 @@ def take_in_exceeded(run: AssociativeRun, sense: float) -> tuple[AssociativeForm
 
     sense : of the live load
     """
-    rough = replace(run.settings, tolerance=max(run.settings.tolerance, ROUGH_TOLERANCE))
+    rough = replace(run.settings, tolerance=max(run.settings.tolerance, run.settings.proof.rough_tolerance))
     kind = "associative" if sense > 0.0 else "reverse"
     while True:
         form = associative_form(run.program)
@@ -153,16 +139,17 @@ def solve_until_proved(run: AssociativeRun, form: AssociativeForm, solution: Con
 
     solution : of the form, by the first method
     """
+    proof = run.settings.proof
     first = best = _judged(run, form, solution)
-    sharpest = replace(run.settings, tolerance=min(run.settings.tolerance, SHARPEST))
-    other = replace(run.settings, tolerance=max(SHARPER * run.settings.tolerance, SHARPEST))
+    sharpest = replace(run.settings, tolerance=min(run.settings.tolerance, proof.sharpest))
+    other = replace(run.settings, tolerance=max(proof.sharper * run.settings.tolerance, proof.sharpest))
     if run.settings.solver == "auto":
         own = first.solution.solver
         sharpest, other = replace(sharpest, solver=own), replace(other, solver=other_method(own))
     # of strengths beyond numbers one method may say that they bear everything
     unsure = run.program.conditions is not None and best.solution.status is Status.UNBOUNDED
     tried = set[float]()
-    for power in POWERS:
+    for power in proof.powers:
         unit = _size(run, best) ** power
         if unit not in tried and (unsure or _is_open(run, best)):
             best = better(best, _answer(run, _in_units_of(run, first) or form, unit, other))
@@ -180,9 +167,9 @@ def _is_open(run: AssociativeRun, best: ProvedSolution) -> bool:
 
 def _in_units_of(run: AssociativeRun, found: ProvedSolution) -> AssociativeForm | None:
     """The program in units of what was found, within less friction; None where it would be the same."""
-    limits = run.program.limits
-    rough = bool((limits.friction > ROUGH).any())
-    less = replace(limits, friction=np.minimum(limits.friction, ROUGH))
+    limits, most = run.program.limits, run.settings.proof.rough
+    rough = bool((limits.friction > most).any())
+    less = replace(limits, friction=np.minimum(limits.friction, most))
     program = replace(run.program, limits=less) if rough else run.program
     own = None if found.gap is None else in_own_units(program, found.gap.forces)
     if own is None and not rough:
@@ -272,7 +259,7 @@ def _proved(run: AssociativeRun, form: AssociativeForm, solution: ConeSolution) 
 
 def _size(run: AssociativeRun, answer: ProvedSolution) -> float:
     """Size of the load factor: 1, or its own where that is small."""
-    size, value = run.size, abs(answer.solution.objective)
-    if answer.gap is None or value > SMALL * size:
+    proof, size, value = run.settings.proof, run.size, abs(answer.solution.objective)
+    if answer.gap is None or value > proof.small * size:
         return 1.0
-    return value if value > NOISE * size else ZERO_SIZE * size
+    return value if value > proof.noise * size else proof.zero_size * size
