@@ -18,9 +18,6 @@ from mbla.solution.flow.unit_of_displacement import Measure
 from mbla.solution.law.elastic_joints import ElasticJoints
 from mbla.solution.law.joint_equations import JointStep
 
-GROWTH, LONGEST = 1.3, 0.15
-"""Factor from step to step, and length over the displacement so far, at most."""
-
 ROUGH, SHORTEST = 100.0 * EXACT, 1e-3
 """Misfit above which a step is halved, and its length in units below which the path is stuck."""
 
@@ -42,12 +39,6 @@ def follow_solved(
     return ElasticPath(path.top, half, path.state, stop, curve, measure.displacement, spent, path.halved)
 
 
-MOST, CRAWLS = 2400, 500
-"""Factorisations at most, and those after which a path that is not needed must be beyond the elastic displacement:
-columns on a slope at the limit of standing take 1,400, and are there after 200; a surveyed vault and a bridge were at
-0.7 and 0.5 after 600, and at less than 2 after 2,400."""
-
-
 class _Path:
     """A path on its way: state and memory of the joints, length of the next step in units, displacement, and peaks."""
 
@@ -62,7 +53,7 @@ class _Path:
         self.top: PeakStep | None = None
         self.half: PeakStep | None = None
         self.steps: list[PathStep] = []
-        self.factorizations, self.halved, self.low = 0, 0, Fall()
+        self.factorizations, self.halved, self.low = 0, 0, Fall(settings)
 
     def advance(self) -> Stop | None:
         """One step, or half of it next time where it could not be solved; why the path ends, None where it goes on."""
@@ -81,7 +72,8 @@ class _Path:
         opened, slide = self.memory.yielding(self.joints, there.state.normal)
         step = PathStep(self.displacement, there.state.factor, counted=True, reach=1.0, open=opened, slide=slide)
         self.steps.append(self.settings.seen(step))
-        self.length = min(GROWTH * length, max(LONGEST * self.displacement, self.settings.first))
+        growth, longest = self.settings.solved
+        self.length = min(growth * length, max(longest * self.displacement, self.settings.first))
         below = there.state.factor < (1.0 - self.settings.dropped) * self.top.state.factor
         self.low = self.low.after(below, self.displacement, there.state.factor)
         if self.low.is_over(self.displacement):
@@ -94,8 +86,9 @@ class _Path:
         """Whether time or factorisations are over."""
         if self.settings.late:
             return Stop.LATE
-        crawls = not self.needed and self.factorizations > CRAWLS and self.displacement < ELASTIC
-        return Stop.BUDGET if crawls or self.factorizations > MOST else None
+        most, crawling = self.settings.spent
+        crawls = not self.needed and self.factorizations > crawling and self.displacement < ELASTIC
+        return Stop.BUDGET if crawls or self.factorizations > most else None
 
     def _solved(self, length: float) -> PeakStep:
         """A step of a length in units."""

@@ -29,30 +29,12 @@ from mbla.solution.law.elastic_joints import ElasticJoints, Memory, StepState
 from mbla.solution.law.joint_equations import JointStep, residual_of
 from mbla.solution.law.joint_step import direction_of, length_of
 
-SMOOTHED = 0.3
-"""Share of the live power up to which a step is smoothed little."""
-
 BREAKS = 1e-7
 """Reach of a direction with which a path breaks down."""
-
-SETTLED = 16.0
-"""Displacement within which no path is flat: an arch at its least thickness, its joints as stiff in shear as across,
-has two thirds of its load factor from 1.3 to 9, and rises then; 25 for 16 changed one of 23 load cases, by 0.05 %."""
-
-BACK, CLOSE_BY = 1.0005, 0.998
-"""Load factor over the least since it last rose, and over the peak, from which a path is on its way back after a dip
-and not flat: loads of a cross vault dip at 0.3738 and 0.4108, and then rise to 0.3771 and 0.4162."""
 
 ENDS = 0.01
 """Share of the end of the path before it at which it has come there: a step as short as what is left would have larger
 openings than its products allow, and was blocked."""
-
-PASSED = 1.1
-"""Displacement over that at which the load last rose, from which a blocked path has its peak behind it, in its second
-half: a dome on its drum snaps there, and no smoothing led on from where it was blocked in fewer than 100 steps."""
-
-NOT_LOW = Fall()
-"""No step below the peak."""
 
 AT_BREAK, AIM, NEARLY = 12, 1.003, 0.99
 """Lengths tried for the step to where a tie breaks; how much beyond it is aimed at, for there the tie has its strength;
@@ -101,10 +83,10 @@ class _Path:
     force: float = field(init=False)
     peaks: GreatestSteps = field(init=False)
     good: float = field(init=False)
+    low: Fall = field(init=False)
     displacement: float = 0.0
     risen: tuple[float, float] = (0.0, 0.0)
     least: float = 0.0
-    low: Fall = NOT_LOW
     fallen: float = 0.0
     broken: list[tuple[float, int]] = field(default_factory=list)
     blocked: tuple[int, int] = (0, 0)
@@ -117,9 +99,9 @@ class _Path:
         """At rest, moving as if all joints were stuck."""
         joints, live = self.joints, self.joints.program.live_load
         self.force = max(self.gravity.force, mean_live_load(joints.program, self.scale))
-        self.peaks = GreatestSteps(self.force, self.unit)
+        self.peaks = GreatestSteps(self.force, self.unit, self.settings)
         self.h, self.kappa = self.settings.first * self.unit, self.settings.smoothing
-        self.good, self.memory = self.h, self.gravity.memory
+        self.good, self.memory, self.low = self.h, self.gravity.memory, Fall(self.settings)
         at_rest = replace(self.gravity.state, u=motion / float(live @ motion))
         step = JointStep(joints, self.memory, self.h)
         self.state = centred(joints, at_rest_of(step, at_rest, self.sigma), self.sigma, 0.99)
@@ -156,7 +138,7 @@ class _Path:
         opened, slide = self.memory.yielding(self.joints, self.state.normal)
         step_gone = PathStep(self.displacement, self.state.factor, counted, reach, opened, slide)
         self.steps.append(self.settings.seen(step_gone))
-        ended = self._ended(counted, reach, sigma)
+        ended = self._ended(counted, reach)
         if len(breaking):
             self._let_go(breaking)
         return ended or self._next(reach)
@@ -206,7 +188,7 @@ class _Path:
         self.broken += [(self.displacement, point) for point in points.tolist()]
         self.state = let_go(self.joints, self.state, points, self.sigma)
         self.joints, self.memory = without(self.joints, self.memory, points)
-        self.fallen, self.low = 0.0, NOT_LOW
+        self.fallen, self.low = 0.0, Fall(self.settings)
 
     def _counts(self, gone: PeakStep | None) -> bool:
         """Whether the state is in balance; the peak where it is the greatest, unless there is no step for it."""
@@ -221,21 +203,16 @@ class _Path:
         self.least = min(self.least, state.factor)
         return True
 
-    def _smoothed_little(self, sigma: float) -> bool:
-        """Whether smoothing takes less than a third of the live power at the associative load."""
-        return self.joints.n_products * sigma <= SMOOTHED * self.scale
-
-    def _ended(self, counted: bool, reach: float, sigma: float) -> Stop | None:
+    def _ended(self, counted: bool, reach: float) -> Stop | None:
         """Falls, flat, far, stuck, or None."""
         settings = self.settings
-        if self._smoothed_little(sigma):
-            below = counted and self.fallen > 0.0 and reach > 0.2
-            below = below and self.state.factor < (1.0 - settings.dropped) * self.fallen
-            self.low = self.low.after(below, self.displacement, self.state.factor)
+        below = counted and self.fallen > 0.0 and reach > 0.2
+        below = below and self.state.factor < (1.0 - settings.dropped) * self.fallen
+        self.low = self.low.after(below, self.displacement, self.state.factor)
         if self.low.is_over(self.displacement):
             return Stop.FALLS
-        level = self.state.factor <= max(BACK * self.least, CLOSE_BY * self.risen[0])
-        if counted and level and self.displacement > max(SETTLED, 2.2 * self.risen[1]):
+        level = self.state.factor <= max(settings.back[0] * self.least, settings.back[1] * self.risen[0])
+        if counted and level and self.displacement > max(settings.settled, 2.2 * self.risen[1]):
             return Stop.FLAT
         if self.displacement >= settings.until * (1.0 - ENDS):
             return Stop.FAR
@@ -263,9 +240,9 @@ class _Path:
         elif reach > 0.5:
             self.kappa = min(settings.most_smoothing, 2.0 * self.kappa)
         self.h = min(self.h, max(settings.longest * self.displacement, settings.first) * self.unit)
-        if self.blocked[0] >= 2 and self.displacement > SETTLED and self.peaks.load_factor > 0.0:
+        if self.blocked[0] >= 2 and self.displacement > settings.settled and self.peaks.load_factor > 0.0:
             half = [s.load_factor for s in self.steps if s.displacement <= 0.5 * self.displacement and s.counted]
-            passed = self.displacement > max(0.5 * settings.until, PASSED * self.risen[1])
+            passed = self.displacement > max(0.5 * settings.until, settings.passed * self.risen[1])
             if passed or self.peaks.load_factor < 1.005 * max(half, default=0.0):
                 return Stop.FLAT
         if self.blocked[0] >= 2:

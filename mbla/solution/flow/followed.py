@@ -17,19 +17,12 @@ from mbla.solution.flow.unit_of_displacement import Measure, measure_of, pressed
 from mbla.solution.law.elastic_joints import ElasticJoints
 from mbla.solution.thresholds import APPROXIMATE_RESIDUAL
 
-LOW, ROUGH, SAME = 0.1, 0.02, 0.01
-"""Share of the associative load factor below which every step is solved, share by which that of a peak may change
-as its step is solved, and change of the load factor that counts as none."""
-
-HELD, FALLEN = 0.985, 0.9
-"""Shares of the peak: a path that is stuck above the one, or was brought back and lies below the other, is lost."""
-
 NEGLIGIBLE = 1e-6
 """Reaction at rest over the part's own unit of load that is none."""
 
-MEASURES, ALIKE, LINEAR = 6, 4.0, 0.5
-"""Load factors tried as a measure, factor within which one is of the size of what was found, and share of the elastic
-load at the end of the path from which nothing has given way."""
+ALIKE, LINEAR = 4.0, 0.5
+"""Factor within which a measure is of the size of what was found, and share of the elastic load at the end of the path
+from which nothing has given way."""
 
 
 @dataclass(frozen=True)
@@ -78,15 +71,15 @@ def followed(rest: AtRest, measure: Measure) -> Followed:
     settings = rest.settings
     path = along(settings)
     paths = [path]
-    if is_too_rough(path, rest, measure):
+    if is_too_rough(path, rest):
         path = follow_solved(rest.joints, rest.gravity, measure, settings)
         paths.append(path)
     elif not rest.twists and _misses(path, APPROXIMATE_RESIDUAL if rest.joints.laws else 0.0):
         paths.append(follow_solved(rest.joints, rest.gravity, measure, settings, needed=False))
-        path = _better(*paths)
-    elif settings.again and (is_lost(path) or (rest.twists and path.recentred)):
+        path = _better(settings, *paths)
+    elif settings.again and (is_lost(path, settings) or (rest.twists and path.recentred)):
         paths.append(along(replace(settings, most_smoothing=2.0, first=0.5 * settings.first)))
-        path = _better(*paths)
+        path = _better(settings, *paths)
     return Followed(path, path.stop, tuple(paths))
 
 
@@ -95,12 +88,12 @@ def _misses(path: ElasticPath, most: float) -> bool:
     return path.peak is not None and not path.peak.is_solved and path.peak.misfit > most
 
 
-def _better(lost: ElasticPath, again: ElasticPath) -> ElasticPath:
+def _better(settings: PathSettings, lost: ElasticPath, again: ElasticPath) -> ElasticPath:
     """Of two paths the one that has a state at all; that is an answer, if not lower; with the greater load factor."""
     with_state = [path for path in (lost, again) if path.peak is not None and not _misses(path, APPROXIMATE_RESIDUAL)]
     if len(with_state) == 1:
         return with_state[0]
-    if again.stop.answers and again.load_factor >= (1.0 - SAME) * lost.load_factor:
+    if again.stop.answers and again.load_factor >= (1.0 - settings.same) * lost.load_factor:
         return again
     return again if again.load_factor > lost.load_factor else lost
 
@@ -108,7 +101,7 @@ def _better(lost: ElasticPath, again: ElasticPath) -> ElasticPath:
 def measured_by_itself(rest: AtRest, first: float) -> Followed:
     """Without a load factor of associative flow: measured by what is found, beginning with one in its place."""
     scale, linear, paths = first, False, list[ElasticPath]()
-    for _ in range(MEASURES):
+    for _ in range(rest.settings.measures):
         found = followed(rest, measure_of(rest.joints, scale, rest.pressed))
         paths += found.paths
         peak, last = found.path.load_factor, found.path.displacement * scale
@@ -121,24 +114,21 @@ def measured_by_itself(rest: AtRest, first: float) -> Followed:
     return replace(found, paths=tuple(paths))
 
 
-def is_too_rough(path: ElasticPath, rest: AtRest, measure: Measure) -> bool:
-    """Whether smoothing may be more than the load factor.
-
-    That is so where the dead load is nearly all that is carried, and where the step of the peak came to another one as
-    it was solved.
-    """
+def is_too_rough(path: ElasticPath, rest: AtRest) -> bool:
+    """Whether smoothing may be more than the load factor: the step of the peak came to another one as it was solved."""
     joints, counted = rest.joints, [step.load_factor for step in path.steps if step.counted]
     if joints.program.facts.settling_support or rest.twists or joints.brittle.any():
         return False
-    changed = abs(path.load_factor - max(counted, default=0.0)) > ROUGH * path.load_factor
-    return path.peak is None or changed or path.load_factor < LOW * measure.load_factor
+    changed = abs(path.load_factor - max(counted, default=0.0)) > rest.settings.rough * path.load_factor
+    return path.peak is None or changed
 
 
-def is_lost(path: ElasticPath) -> bool:
+def is_lost(path: ElasticPath, settings: PathSettings) -> bool:
     """Whether a path ended without an answer near its peak, or far below it after it was brought back."""
+    stuck, brought_back = settings.lost
     if path.stop in (Stop.STUCK, Stop.BROKE_DOWN):
-        return path.moving > HELD * path.load_factor
-    return path.recentred > 0 and path.moving < FALLEN * path.load_factor
+        return path.moving > stuck * path.load_factor
+    return path.recentred > 0 and path.moving < brought_back * path.load_factor
 
 
 def as_it_gives_way(rest: AtRest, own_unit: float) -> tuple[AtRest, float]:

@@ -5,18 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 
 from mbla.solution.flow.peak_step import PeakStep, at_rest_of, centred, solved_peak
+from mbla.solution.flow.settings import PathSettings
 
-NEAR, MOST_NEAR = 1e-3, 8
-"""Share of the peak within which another step stands for it where its own cannot be solved, and how many are tried: of
-the decks four peaks could not, each had one that could among the eight greatest, within 0.05 % of it."""
-
-LEVEL = 1e-5
-"""Share of the peak by which a later step may lie below it and take its place: where the load stays joints that hold no
-longer creep, and the motion is that of the fall."""
-
-ONWARDS, WITHIN, ALIKE = 0.05, 0.95, 1e-3
-"""Length of the short step after that of the peak, in units, share of its limit within which shear begins in it, and
-share of the load factor of the peak within which it stands for it."""
+WITHIN = 0.95
+"""Share of its limit within which shear begins in the short step after that of the peak."""
 
 
 @dataclass
@@ -25,6 +17,7 @@ class GreatestSteps:
 
     force : n₀
     unit  : of displacement
+    settings : of the path
     top   : step of the greatest load factor so far
     near  : steps next below it, the greatest first
     later : the greatest of the steps after it that are smoothed half as much: early ones may be smoothed much
@@ -34,6 +27,7 @@ class GreatestSteps:
 
     force: float
     unit: float
+    settings: PathSettings
     top: PeakStep | None = None
     near: list[PeakStep] = field(default_factory=list)
     later: PeakStep | None = None
@@ -49,9 +43,10 @@ class GreatestSteps:
         """A step in balance, where it is one of them."""
         factor = gone.state.factor
         greatest = factor if self.top is None else max(self.top.state.factor, factor)
-        near = [each for each in (*self.near, gone) if each.state.factor >= (1.0 - NEAR) * greatest]
-        self.near = sorted(near, key=lambda each: -each.state.factor)[:MOST_NEAR]
-        if self.top is None or factor > self.top.state.factor - LEVEL * self.load_factor:
+        share, most = self.settings.near
+        near = [each for each in (*self.near, gone) if each.state.factor >= (1.0 - share) * greatest]
+        self.near = sorted(near, key=lambda each: -each.state.factor)[:most]
+        if self.top is None or factor > self.top.state.factor - self.settings.level * self.load_factor:
             self.top, self.later = gone, None
         elif gone.sigma <= 0.5 * self.top.sigma:
             self.later = max(self.later or gone, gone, key=lambda peak: peak.state.factor)
@@ -89,10 +84,11 @@ class GreatestSteps:
 
         What the smoothed steps before have left is made up for in the step of the peak, whose motion has that in it.
         """
-        step = replace(top.step, memory=top.memory, length=ONWARDS * self.unit)
+        length, alike = self.settings.onwards
+        step = replace(top.step, memory=top.memory, length=length * self.unit)
         start = top.state
         if not step.joints.laws:  # solved by Newton's method it has no products
             start = centred(step.joints, at_rest_of(step, top.state, top.sigma), top.sigma, WITHIN)
         after = self.solve(replace(top, step=step, state=start))
-        level = after.is_solved and abs(after.state.factor - top.state.factor) <= ALIKE * abs(top.state.factor)
+        level = after.is_solved and abs(after.state.factor - top.state.factor) <= alike * abs(top.state.factor)
         return after if level else top

@@ -138,6 +138,7 @@ def path_of_part(
     gaps       : (n_points,) displacement by which each joint closes before it touches; none unless given
     extent     : how much of it is followed
     """
+    settings.validate()
     if program.n_points == 0:  # held by guides alone, or by nothing
         return PathOfPart(Stop.DOES_NOT_STAND if np.any(program.dead_load) else Stop.UNDECIDED)
     state = associative.state
@@ -145,7 +146,7 @@ def path_of_part(
     if state is not None and not extent.whole:
         v = state.velocities
         moves = v if extent.besides is None else np.where(extent.besides, np.abs(v).max(initial=0.0), v)
-        part = moving_part(program, moves)
+        part = moving_part(program, moves, settings)
     known, before = None if state is None else state.load_factor, associative.stress_free
     same = part is None and gaps is None and interfaces is NONE and settings.ratio == RATIOS[0]
     gravity = before.gravity if before is not None and same and np.any(program.dead_load) else None

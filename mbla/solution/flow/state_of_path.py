@@ -6,6 +6,7 @@ what is passed on to it, and remembers these.
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Callable
 from dataclasses import replace
 
@@ -24,10 +25,6 @@ from mbla.solution.nonassociative.collapse_state import CollapseState, StepHisto
 from mbla.solution.settings import SolverSettings
 from mbla.solution.standing.standing import least_forces
 
-GROWN = 2
-"""Times that what is followed takes in what does not carry what is passed on to it, before it is the whole: of a wall
-of 60 courses one of 2,236 blocks that rest did not."""
-
 
 def path_with_state(
     program: Program,
@@ -41,12 +38,12 @@ def path_with_state(
     state_on : its state
     """
     extent = WHAT_MOVES
-    for grown in range(GROWN + 1):
+    for grown in itertools.count():
         found = along(extent)
         state = state_on(found)
-        if state is not None or not found.lets_rest:
+        if state is not None or found.rest is None or not found.lets_rest:
             return found, state
-        left = _not_carried(program, found, interfaces) if grown < GROWN else None
+        left = _not_carried(program, found, interfaces) if grown < found.rest.settings.grown else None
         if left is None:
             break
         extent = Extent(besides=left if extent.besides is None else left | extent.besides)

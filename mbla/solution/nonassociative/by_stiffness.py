@@ -11,14 +11,14 @@ from collections.abc import Callable, Mapping
 
 from mbla.deck.sections.analysis import AnalysisSection
 from mbla.solution.associative.solve_associative import AssociativeResult
-from mbla.solution.flow.followed import LOW
 from mbla.solution.flow.path_of_part import PathOfPart
 from mbla.solution.flow.path_record import UNENDED
 from mbla.solution.flow.settings import ratios_beside, second_ratio
 from mbla.solution.solution import PathByStiffness
 
-SAME = 0.05
-"""Share of the load factor by which two stiffnesses may differ."""
+LOW, SAME = 0.1, 0.05
+"""Share of the associative load factor below which stiffness may decide, and of the load factor by which two
+stiffnesses may differ."""
 
 
 def paths_beside(

@@ -104,6 +104,11 @@ def test_a_path_ends_as_far_as_it_is_told() -> None:
         (PathSettings(until=2000.0), "end of the path"),
         (PathSettings(growth=1.0), "steps"),
         (PathSettings(most_smoothing=0.0), "smoothing"),
+        (PathSettings(settled=0.0), "flat"),
+        (PathSettings(falling=(0, 1.02, 1.001)), "fall"),
+        (PathSettings(near=(1e-6, 8)), "near the peak"),
+        (PathSettings(spent=(100, 500)), "solved steps"),
+        (PathSettings(measures=0), "counts"),
     ],
 )
 def test_settings_that_lead_nowhere_are_refused(wrong: PathSettings, words: str) -> None:

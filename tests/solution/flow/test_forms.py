@@ -81,7 +81,7 @@ def test_what_moves_alone_leads_to_the_load_factor_of_the_whole(name: str, close
     case = case_of(DECK["room_to_strengthen"], name)
     program, associative = case.loaded, case.associative().state
     assert associative is not None
-    part = moving_part(program, associative.velocities)
+    part = moving_part(program, associative.velocities, DEFAULT)
     assert part is not None
     alone, whole = (path_by(program, associative.load_factor, DEFAULT, part=each) for each in (part, None))
     assert alone.load_factor == pytest.approx(whole.load_factor, rel=close)
@@ -94,7 +94,7 @@ def test_walls_of_which_a_part_moves(length: int, courses: int) -> None:
     case = case_of(text, "push")
     program, associative = case.loaded, case.associative().state
     assert associative is not None
-    part = moving_part(program, associative.velocities)
+    part = moving_part(program, associative.velocities, DEFAULT)
     assert part is not None
     alone, whole = (path_by(program, associative.load_factor, DEFAULT, part=each) for each in (part, None))
     assert alone.is_answer
