@@ -1,27 +1,7 @@
 """Factorisation of symmetric positive definite matrices of one pattern, by whichever library is there.
 
-Seconds of one factorisation on one thread, and of the analysis before the first, for the condensed matrices of
-running-bond walls whose joints differ by sixteen decades::
-
-                               qdldl             superlu           cholmod
-    unknowns              first     each     first     each    first     each
-      630                 0.0006   0.0006    0.003    0.0014   0.0009   0.0003
-    2,460                 0.003    0.0062    0.013    0.012    0.005    0.0016
-    6,072                 0.005    0.031     0.040    0.040    0.010    0.0060
-   21,780                 0.12     0.31      0.26     0.25     0.052    0.038
-   30,150 planar          0.022    0.23      0.23     0.22     0.034    0.032
-   60,300                 0.77     2.7       1.7      1.2      0.15     0.16
-
-A solution takes 0.1 (small) to 0.01 (large) of a factorisation by qdldl, with every library. All leave a residual of
-rounding. CHOLMOD is the one optional library: the fastest, 0.03 s to load, and below 300 unknowns little is to be won
-over qdldl. MKL Pardiso was close behind for definite matrices (the run of a spatial wall of 3,630 blocks takes 33 s of
-the processor without either, 12 with CHOLMOD, 13 with Pardiso) and won nothing on flow without dilatancy (walls of 410
-and 1,012 blocks: 4.4 and 6.3 s without either, 4.3 and 6.2 with CHOLMOD, 4.5 and 6.6 with Pardiso).
-
-Of the two that are always there SuperLU is the faster from 12,000 unknowns on. Its column is that of its own order of
-elimination; in the one that it is given now (``elimination_order``) it takes 0.7 of that where matrices are large, and
-the analysis less than a factorisation. Side by side in one process it took 1.2 of qdldl's time for 10,890 unknowns of a
-planar wall, 0.8 for 9,720 of a spatial and for 19,320 of a planar one, 0.7 for 30,150 planar, 0.55 for 21,780 spatial.
+CHOLMOD is the one optional library, and the fastest. Of the two that are always there qdldl is the faster up to 12,000
+unknowns, SuperLU beyond (times of each: tests/performance).
 """
 
 from __future__ import annotations

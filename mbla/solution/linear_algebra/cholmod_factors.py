@@ -1,8 +1,8 @@
 """CHOLMOD: supernodal Cholesky in an approximate minimum degree order. Only importer of cvxopt, which carries it.
 
 The wheels of cvxopt give it a BLAS of one thread: reruns are identical to the bit. Where another library of the process
-offers a BLAS under the same names, as MKL does once it is loaded, CHOLMOD took half as long again with that and gave
-other last digits; so on Linux it is bound to the one that it brings.
+offers a BLAS under the same names, as MKL does once it is loaded, CHOLMOD is slower with that and gives other last
+digits; so on Linux it is bound to the one that it brings.
 """
 
 from __future__ import annotations

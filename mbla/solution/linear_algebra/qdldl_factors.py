@@ -5,15 +5,12 @@ the end, and its stored entries then stand in the reverse order: nothing has to 
 the place of every entry are found once, at the first factorisation, and kept.
 
 It goes on past negative pivots, which tell the inertia of a matrix. They are given out with a copy of the factors
-alone, which takes as long as one solution: 3 % of a factorisation of 20,000 unknowns.
+alone, which takes as long as one solution.
 
 Order of elimination with little fill, found on the structure of blocks behind a pattern (``elimination_order``): the
 three or six rows of a block, and those of blocks glued to it, touch the same columns, and an order by minimum degree
 keeps them together. So it may as well be found on a graph with one node for each set of such rows, nine to thirty-six
-times fewer entries. SuperLU's own minimum degree order of all rows takes as long as a factorisation (1.0 s for a planar
-wall of 20,000 blocks, 1.7 s for a spatial one of 10,000; here 0.1 and 0.3 s), and its fill is larger: by 18 % and 12 %,
-and the factorisation takes 1.4 times as long. Nested dissection by landmark coordinates had 8 % and 15 % more fill, and
-a factorisation no faster.
+times fewer entries.
 
 Source: Amestoy, Davis and Duff 1996 (doi:10.1137/S0895479894278952); indistinguishable rows: Ashcraft 1995
 (doi:10.1137/0916081).

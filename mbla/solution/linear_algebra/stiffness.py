@@ -9,8 +9,7 @@ the live load::
 
 or by an equation that says that the load factor does not change. It need not be symmetric: friction without
 dilatancy is not. Points whose columns have the same rows (those of one interface) are assembled together as dense
-blocks; measured on walls of 400 and 1,000 blocks that and the fixed order make a factorisation three times cheaper
-than a product of sparse matrices and a column ordering from scratch each time.
+blocks.
 """
 
 from __future__ import annotations

@@ -2,11 +2,7 @@
 
 Symmetric matrices that are definite up to a border (regularised normal equations with one row and column
 more) are factorised on their diagonal, in an ordering by minimum degree: without exchanges of rows their factors stay
-sparse, which was fifty times faster on walls of 1,000 blocks and, with a refinement, as accurate.
-
-Of the bordered matrices of flow without dilatancy (``stiffness``; walls of 1,000 to 3,600 blocks, 4,861 to 10,891
-unknowns) factors and six solutions, as many as an iteration takes, need 18 to 80 ms so, 32 to 204 with UMFPACK, 62 to
-440 with KLU, 29 to 81 with Pardiso, whose factors take half the time and whose solutions four times: none pays.
+sparse.
 
 Definite matrices of one pattern have their order found once. SuperLU computes both triangles, but by panels of columns
 that stay in the processor's cache, where qdldl goes row by row. On its diagonal a definite matrix leaves the pivots of
@@ -36,7 +32,7 @@ PIVOT_THRESHOLD = 0.01
 
 SUBTREE = 6
 """Columns at most of a subtree that is factorised as one. The rows of a block stand together anyhow; with the usual ten
-and more, neighbours are padded with zeros: 44 ms in place of 32 for 6,073 unknowns."""
+and more, neighbours are padded with zeros."""
 
 
 def factorize(matrix: sp.sparray, *, symmetric: bool = False) -> Solve | None:

@@ -121,10 +121,7 @@ class ConeProduct:
 
 
 def dot(u: FloatArray, v: FloatArray) -> float:
-    """u·v, (n,) each, without the linear algebra library.
-
-    Its threads cost more than they bring: 6 ms for 14,000 components.
-    """
+    """u·v, (n,) each, without the linear algebra library, whose threads cost more than they bring."""
     return float(np.einsum("i,i->", u, v))
 
 
