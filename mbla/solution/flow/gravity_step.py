@@ -43,12 +43,10 @@ SHORT, BLOCKED = 0.03, 2
 
 BACK, HIGHEST, SLOWER = 1e4, 1e4, 0.3
 """Factor on the products of a way that is blocked, which goes on from the central path of its forces, their greatest
-over n₀², and factor on them from there on: of a house with joints as stiff in shear as in compression four ways from
-stiffer joints and quicker falls were blocked, this was not."""
+over n₀², and factor on them from there on."""
 
 HELD, WEAKER = (1e-8, 1e-5), 1e-4
-"""ε over the mean stiffness of a joint, tried in turn until the step is solved: a plug that falls out of its hole was
-not with the weakest. Then factor on it."""
+"""ε over the mean stiffness of a joint, tried in turn until the step is solved, then factor on it."""
 
 FITS, SHARP = 1e-7, 1e-11
 """Misfit of the law with which a state of points is taken where every block is carried by the forces of the law itself,
@@ -64,8 +62,7 @@ wanted, with which a state is taken."""
 
 NEARBY = 1e-6
 """Products over n₀² with which a way from a state nearby begins, on the central path of its forces; where interfaces
-have a law of their own, from the state itself: forces cut back within its bounds do not balance, and a bridge with
-torsion was undecided. From the state itself points lead a pushover in which a plank drops off its closed form."""
+have a law of their own, from the state itself: forces cut back within its bounds do not balance."""
 
 CARRIED, STANDS = 1e-6, 2e-5
 """Share of what a block has to carry up to which it is carried without springs, and force of a spring, in mean loads of

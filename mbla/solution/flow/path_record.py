@@ -11,8 +11,7 @@ from mbla.solution.law.elastic_joints import StepState
 RISES = 5e-3
 """Share of the load factor gained over the last half of a path, from which it still rises where it ends."""
 UNENDED = 0.05
-"""Such a share from which the end of the path decides the load factor: a chain of 200 blocks gained 29 %, and came to
-78 % of what it carries at last."""
+"""Such a share from which the end of the path decides the load factor."""
 
 
 class Stop(StrEnum):
