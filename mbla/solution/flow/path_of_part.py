@@ -33,9 +33,6 @@ from mbla.solution.nonassociative.moving_part import moving_part
 from mbla.solution.solution import Status
 from mbla.solution.thresholds import NEAR_ZERO
 
-MOST_STEPS_OF_PART = 2000
-"""Steps of a path that follows what moves alone, each of which costs less: a wall of 60 courses takes some 1,200."""
-
 NEGLIGIBLE = 1e-9
 """Load factor over the part's own unit that is none."""
 
@@ -240,5 +237,5 @@ def _in_units_of(whole: ElasticJoints, part: ChosenPart, rest: AtRest, own: Meas
     unit = float(whole.program.live_load @ elastic_motion(whole, pressed)) * own.load_factor
     settings, (share, _) = rest.settings, rest.settings.smoothed
     first = settings.first * min(1.0, 2.0 * own.displacement / unit)
-    settings = replace(settings, first=first, smoothed=(share, np.inf), steps=MOST_STEPS_OF_PART)
+    settings = replace(settings, first=first, smoothed=(share, np.inf), steps=settings.steps_of_part)
     return replace(rest, settings=settings), replace(own, displacement=unit)

@@ -81,6 +81,7 @@ class PathSettings:
 
     What moves alone:
 
+    steps_of_part : at most, each of which costs less
     rings        : of blocks around those that move
     few_points   : contact points up to which no part is worth a program of its own
     worthwhile   : share of them from which it is not
@@ -118,6 +119,7 @@ class PathSettings:
     lost: tuple[float, float] = (0.985, 0.9)
     same: float = 0.01
     measures: int = 6
+    steps_of_part: int = 2000
     rings: int = 3
     few_points: int = 1500
     worthwhile: float = 0.8
