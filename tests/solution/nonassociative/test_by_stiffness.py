@@ -54,11 +54,11 @@ def test_a_path_that_was_lost_or_still_rises_has_no_load_factor_and_the_one_show
 
 def test_of_parts_that_are_not_connected_the_least_counts_with_joints_of_every_stiffness() -> None:
     def part(*rows: PathByStiffness) -> PartResult:
-        return cast(PartResult, SimpleNamespace(sequence=SimpleNamespace(by_stiffness=rows)))
+        return cast(PartResult, SimpleNamespace(flow=SimpleNamespace(by_stiffness=rows)))
 
     def factors(*rows: PathByStiffness) -> Sequence[PathByStiffness]:
         parts = [part(*rows), part(PathByStiffness(0.2, 0.49), PathByStiffness(1.0, 0.6))]
-        return least_by_stiffness([*parts, cast(PartResult, SimpleNamespace(sequence=None))], rows)
+        return least_by_stiffness([*parts, cast(PartResult, SimpleNamespace(flow=None))], rows)
 
     first = PathByStiffness(0.2, 0.5), PathByStiffness(1.0, 0.5)
     assert factors(*first) == (PathByStiffness(0.2, 0.49), PathByStiffness(1.0, 0.5))
