@@ -156,7 +156,7 @@ def convex_contact_model(analysis: AnalysisSection) -> Iterator[Finding]:
         words = f"contact_model: convex allows auto only ({analysis.scheme} here)"
         yield Finding("key-of-another-choice", words, "scheme")
     if analysis.solver == "mbla":
-        words = "applies to contact_model: concave only, whose cones have three dimensions: use auto"
+        words = "applies to contact_model: concave only, for which it was made: use auto"
         yield Finding("key-of-another-choice", words, "solver")
 
 
