@@ -72,10 +72,8 @@ class PartResult:
 
     @property
     def tolerance_requested(self) -> float | None:
-        """Gap or residual that was asked for, and reached, where the part is approximate for no other reason."""
-        if self.flow is None:
-            return self.associative.tolerance_requested
-        return None if self._doubted else self.flow.tolerance_requested
+        """Gap that was asked for, and reached, where the part is approximate for no other reason."""
+        return self.associative.tolerance_requested if self.flow is None else None
 
     @property
     def programs(self) -> tuple[ProgramRecord, ...]:

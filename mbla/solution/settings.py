@@ -31,7 +31,7 @@ class SolverSettings:
     standing       : whether it is assessed in addition to the load factor
     steps          : length of those of a path of elastic joints, over the usual
     proof          : how an associative load factor is proved
-    analysis       : flow rule, scheme with its parameters, ranges of forces
+    analysis       : flow rule, scheme with its parameters
     """
 
     tolerance: float

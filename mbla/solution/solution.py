@@ -215,8 +215,8 @@ class Solution:
     size        : what reached the solver
     reductions  : what each reduction left out, in the order in which they were applied; empty where none was attempted
     solver      : that was asked for, as in ``analysis.solver``; ``programs`` say which took each
-    tolerance_requested : approximate: gap of the bounds (associative flow) or residual (other flow) that the analysis
-                  asks for, where the answer is no sharper only because no more was requested; None otherwise
+    tolerance_requested : approximate: gap of the bounds that the analysis asks for, where associative flow is no
+                  sharper only because no more was requested; None otherwise
     """
 
     flow_rule: str

@@ -114,6 +114,17 @@ DECKS: dict[str, tuple[str, tuple[str, ...]]] = {
         BLOCK.replace("{ground: {z: 0}}", "{blocks: block, slide: [0.8, 0, 0.6]}"),
         (),
     ),
+    "guide_carries": (
+        BLOCK.replace("{ground: {z: 0}}", "{ground: {z: 0}}, {blocks: block, slide: [1, 0, 0]}"),
+        (),
+    ),
+    "pushed_on_guides": (
+        BLOCK.replace("{ground: {z: 0}}", "{blocks: block, slide: [1, 0, 0]}").replace(
+            "0]}]}", "0]}], pushover: {step: 0.05, until: 0.2}}"
+        )
+        + "analysis: {geometric_safety: true}\n",
+        (),
+    ),
     "guided_dead_falls": (BLOCK.replace("{ground: {z: 0}}", "{blocks: block, fixed: [rx, ry, rz]}"), ()),
     "settlement": (
         PIER_WITH_HALF + "load_cases: {sinks: {settlement: {on: {group: pier, index: 1}, direction: [0, 0, -1]}}}\n",

@@ -14,7 +14,7 @@ what it leaves alone costs little or changes the structure that is analysed:
   space follows no second path with torsion of uniform pressure;
 - ``reference`` alone follows paths of joints of other stiffnesses beside that of the deck: what the load factor
   without dilatancy hangs on;
-- flow rule, friction polyhedra, contact points or resultants are the engineer's choice. They move the load factor by up
+- flow rule, contact points or resultants are the engineer's choice. They move the load factor by up
   to tens of per cent, and no preset touches them.
 """
 

@@ -92,7 +92,7 @@ class AnalysisSection(Section):
         None,
         description="assess whether the structure stands before any live load; "
         + set_by_accuracy("standing")
-        + "; always true for flow other than associative, whose load factor depends on it",
+        + "; true for flow other than associative, whose load factor depends on it, unless given",
     )
     sensitivity: Sensitivity = Field(
         False,
@@ -183,7 +183,6 @@ def _by_exact_law(analysis: AnalysisSection) -> bool:
 APPLIES: Mapping[str, tuple[Applies, str]] = {
     "scheme": (_no_normality, "flow_rule: non_associative"),
     "published": (_with_scheme("published"), "flow_rule: non_associative with scheme: published"),
-    "gap": (_concave, "contact_model: concave"),
     "residual": (_by_exact_law, "flow_rule: non_associative or dilatancy with scheme: auto"),
     "search": (
         lambda analysis: _concave(analysis) and _by_exact_law(analysis),
@@ -193,10 +192,6 @@ APPLIES: Mapping[str, tuple[Applies, str]] = {
     "torsion": (
         lambda analysis: _concave(analysis) and _with_scheme("auto")(analysis),
         "contact_model: concave and flow_rule: non_associative with scheme: auto",
-    ),
-    "reductions": (
-        lambda analysis: _concave(analysis) or _by_exact_law(analysis),
-        "contact_model: concave, or another flow rule than associative",
     ),
 }
 """Key of the analysis section -> whether it has an effect, and with what it has."""

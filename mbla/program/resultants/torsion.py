@@ -51,8 +51,6 @@ from mbla.program.resultants.shapes import InterfaceShapes
 
 UNKNOWNS = 8
 """Of an interface: η_1, η_2, σ, k+, k−, ζ, γ_1, γ_2."""
-SHEAR, REDUCED = 2, 5
-"""Places of σ, which the shear strength V resists, and of ζ, which gives back V − R."""
 
 
 @dataclass(frozen=True)

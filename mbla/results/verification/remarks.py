@@ -39,7 +39,6 @@ POSSIBLE: Mapping[str, Callable[[CaseResult], bool]] = {
     "associative-bounds-apart": lambda case: case.solution.flow_rule != "associative",
     "default-for-published": _without_dilatancy,
     "elastic-path-rises": _by_path,
-    "law-missed": lambda case: case.solution.flow_rule != "associative",
     "livesley-confirms": lambda case: case.solution.flow_rule == "livesley" and case.status is Status.SOLVED,
     "livesley-overstates": lambda case: case.solution.flow_rule == "livesley" and case.status is not Status.SOLVED,
     "lower-not-searched": lambda case: case.solution.flow_rule != "associative",

@@ -36,7 +36,7 @@ class AssociativeSettings:
         """Raise a ValueError where nothing could be proved with them."""
         if not 0.0 < self.noise < self.zero_size < self.small < 1.0:
             raise ValueError("load factors must be noise below zero_size, and that below small")
-        if not 0.0 < self.sharpest < 1.0 or not 0.0 < self.sharper <= 1.0 or not self.rough_tolerance < 1.0:
+        if not 0.0 < self.sharpest <= self.rough_tolerance < 1.0 or not 0.0 < self.sharper <= 1.0:
             raise ValueError("tolerances must be above 0, and no coarser than the first method's")
         if not self.powers or not all(0.0 < power <= 1.0 for power in self.powers):
             raise ValueError("powers must lie within 0 and 1")

@@ -92,6 +92,7 @@ def solve_associative(
     carried     : the dead load alone is known to be carried
     states      : of stress-free assemblies that are known, to which that of this one is added
     """
+    settings.proof.validate()
     run = AssociativeRun(TakenConditions.least(program), settings, log, first, [])
     falling = _fall_of_what_nothing_touches(program)
     if falling.any():

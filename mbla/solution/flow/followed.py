@@ -110,6 +110,8 @@ def measured_by_itself(rest: AtRest, first: float) -> Followed:
             return Followed(found.path, Stop.UNBOUNDED, tuple(paths))
         if not found.stop.answers or (not linear and scale / ALIKE <= peak <= ALIKE * scale):
             break
+        if not peak > NEGLIGIBLE * first:  # it moves at once
+            break
         scale = peak
     return replace(found, paths=tuple(paths))
 

@@ -145,7 +145,7 @@ def path_of_part(
         moves = v if extent.besides is None else np.where(extent.besides, np.abs(v).max(initial=0.0), v)
         part = moving_part(program, moves, settings)
     known, before = None if state is None else state.load_factor, associative.stress_free
-    same = part is None and gaps is None and interfaces is NONE and settings.ratio == RATIOS[0]
+    same = part is None and gaps is None and dilatancy is None and interfaces is NONE and settings.ratio == RATIOS[0]
     gravity = before.gravity if before is not None and same and np.any(program.dead_load) else None
     found = path_by(program, known, settings, dilatancy, interfaces, gaps, part, gravity)
     falls = associative.status is Status.NO_EQUILIBRIUM

@@ -46,6 +46,8 @@ class InterfaceRows:
         """What contact forces make of each law where no interface moves; None where one is beyond its bounds, or where
         several pieces share its resultants.
 
+        Two laws that bound one resultant share it by what each can carry: one of many ways.
+
         normal, shear : (n_points,), (components − 1, n_points)
         """
         carried = self.resultants @ np.vstack([normal[None], shear]).T.ravel()
@@ -55,7 +57,7 @@ class InterfaceRows:
             if share is None:
                 return None
             resultants = share * (law.rows.T @ carried).reshape(share.shape[::-1]).T
-            with np.errstate(invalid="ignore"):  # of interfaces that are open
+            with np.errstate(over="ignore"):  # of interfaces that are open
                 values = law.conditions.values(resultants, normal)
             if not ((values > -ROUNDING).all(axis=0) | (resultants == 0.0).all(axis=0)).all():
                 return None

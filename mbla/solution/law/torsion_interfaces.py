@@ -47,7 +47,7 @@ def rest_of(twisting: TwistingOfProgram, normal: FloatArray) -> Sizes:
     offsets = np.einsum("mkp,mp->mk", twisting.offsets, n)
     rows, most = np.arange(len(total)), offsets.argmax(axis=1)
     off, of_off = offsets[rows, most], twisting.offsets[rows, most]
-    size = np.sqrt(off**2 + (ROUNDED * total) ** 2)
+    size = np.hypot(off, ROUNDED * total)
     slope = (off[:, None] * of_off + (ROUNDED**2 * total)[:, None] * twisting.pressing) / size[:, None]
     cut = size > (1.0 - LEAST) * total
     slope[cut] = (1.0 - LEAST) * twisting.pressing[cut]
@@ -59,7 +59,7 @@ def rest_size(twisting: TwistingOfProgram, normal: FloatArray) -> tuple[FloatArr
     n = normal[twisting.points]
     total = np.maximum(twisting.cohesion + (twisting.pressing * n).sum(axis=1), 1e-300)
     off = np.matmul(twisting.offsets, n[:, :, None])[:, :, 0].max(axis=1)
-    size = np.minimum(np.sqrt(off**2 + (ROUNDED * total) ** 2), (1.0 - LEAST) * total)
+    size = np.minimum(np.hypot(off, ROUNDED * total), (1.0 - LEAST) * total)
     return size, total - size
 
 

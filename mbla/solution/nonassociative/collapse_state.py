@@ -15,11 +15,7 @@ from mbla.program.yield_conditions import yield_violation
 from mbla.solution.associative.condition_cones import ConditionCones
 from mbla.solution.cone_solvers.cone_solution import ConeSolution
 from mbla.solution.solution import PathByStiffness, PathPoint, ProgramRecord, Status
-from mbla.solution.thresholds import NEAR_ZERO, SOLVED_RESIDUAL, STILL
-
-AS_ASKED = Message(
-    "law-missed", "forces and velocities violate the joint law: residual {:.2g}, within the requested {:g}"
-)
+from mbla.solution.thresholds import NEAR_ZERO, STILL
 
 
 @dataclass(frozen=True)
@@ -71,7 +67,6 @@ class FlowResult:
     path_end, path_gain, path_last : why it ended, share of the load factor gained over its last half, and load factor
               of the model at its end
     by_stiffness : load factors of the model on paths of joints of other stiffnesses that were followed as well
-    tolerance_requested : approximate: the residual at which it was told to stop, and did; None where it fell short
     """
 
     status: Status
@@ -84,15 +79,6 @@ class FlowResult:
     path_gain: float = math.nan
     path_last: float = math.nan
     by_stiffness: tuple[PathByStiffness, ...] = ()
-    tolerance_requested: float | None = None
-
-
-def as_asked(state: CollapseState, residual: float, wanted: float, programs: tuple[ProgramRecord, ...]) -> FlowResult:
-    """A rough state with which a scheme ends, for its residual is within the one that was asked for."""
-    words = AS_ASKED.format(residual, wanted)
-    if residual <= SOLVED_RESIDUAL:
-        return FlowResult(Status.SOLVED, state, "", programs, remarks=(words,))
-    return FlowResult(Status.APPROXIMATE, state, words, programs, tolerance_requested=wanted)
 
 
 def broken_off(

@@ -69,6 +69,7 @@ def why_not_pushed(model: Model, contacts: Contacts, case: LoadCase, solution: S
         "the table collapses at no angle": case.tilt is not None and np.isnan(factor_at_start(case, solution)),
         "guided blocks turn and move besides": turns_and_slides(model.guides),
         f"joints can crush, which is followed at points: {MORE_POINTS}": at_corners,
+        "nothing touches it": not len(contacts.points),
         "flow_rule: livesley": solution.flow_rule == "livesley",
         "contact_model: convex": solution.contact_model == "convex",
         RESTS: _rests(model, case, solution),

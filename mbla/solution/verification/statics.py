@@ -180,10 +180,6 @@ class LoadScale:
         rounding = np.minimum(share * passed_on, self.mean + abs(factor) * self.live)
         return np.maximum(self.block_scale(contacts, contact_forces), rounding)
 
-    def point_scale(self, contacts: Contacts, contact_forces: FloatArray) -> FloatArray:
-        """The scale of the lighter free block at every contact point, (n_points,)."""
-        return self.of_lighter(contacts, self.block_scale(contacts, contact_forces))
-
     def of_lighter(self, contacts: Contacts, values: FloatArray) -> FloatArray:
         """The lesser of the values, (n_blocks,), of the free blocks at every contact point, (n_points,)."""
         scale = np.where(self.own > 0, values, np.inf)

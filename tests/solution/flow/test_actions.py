@@ -5,18 +5,19 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from mbla.deck import read_deck
-from mbla.solution.associative.solve_associative import AssociativeResult
-from mbla.solution.flow.path_of_part import PathOfPart, path_of_part
-from mbla.solution.flow.path_of_parts import deciding
+from mbla.solution.associative.solve_associative import AssociativeResult, solve_associative
+from mbla.solution.flow.path_of_part import path_of_part
 from mbla.solution.flow.path_record import Stop
 from mbla.solution.flow.settings import PathSettings
 from mbla.solution.sequence.tilt_circle import chord
+from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Status
 from tests.decks.folder import BENCHMARKS, PATHS
-from tests.line import BLOCK
+from tests.line import BLOCK, line_of
 from tests.solution.flow.paths import DEFAULT, case_of
 
 CLOSE = 1e-5
@@ -145,16 +146,24 @@ def test_what_nothing_presses_moves_at_once() -> None:
     assert found.load_factor == 0.0
 
 
-def test_the_weakest_of_several_parts_decides() -> None:
+def test_a_part_without_live_load_has_no_path() -> None:
     case = case_of(DECK["slopes_of_blocks"], "rocks")
     unloaded, loaded = (
         path_of_part(part, _without_figure(case.associative(), part is case.loaded), DEFAULT) for part in case.parts
     )
     assert unloaded.stop is Stop.UNLOADED
-    assert deciding([unloaded, loaded]) == 1
-    assert deciding([unloaded]) is None
-    assert deciding([loaded, PathOfPart(Stop.DOES_NOT_STAND)]) == 1
-    assert deciding([PathOfPart(Stop.UNDECIDED), loaded]) == 0
+    assert loaded.is_answer
+
+
+def test_joints_that_dilate_come_to_rest_as_such() -> None:
+    """Standing is found of joints without dilatancy; whether it was found before changes no figure of others."""
+    program = line_of(BLOCK).program
+    known = solve_associative(program, SolverSettings(1e-8), lambda record: None, stress_free=True)
+    assert known.stress_free is not None
+    for dilatancy, same in ((None, True), (np.full(program.n_points, 0.1), False)):
+        rest = path_of_part(program, known, DEFAULT, dilatancy).rest
+        assert rest is not None
+        assert (rest.gravity is known.stress_free.gravity) is same
 
 
 def _without_figure(associative: AssociativeResult, keep: bool) -> AssociativeResult:

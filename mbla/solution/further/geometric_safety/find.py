@@ -86,6 +86,8 @@ def why_no_geometric_safety(model: Model, contacts: Contacts, load_case: LoadCas
         return "it is for joints whose points carry all, without compressive strength and contact_model: convex"
     if not np.any(load_case.dead_load[model.free]):
         return "there is no dead load"
+    if not len(contacts.points):
+        return "no joints carry it"
     return ""
 
 
