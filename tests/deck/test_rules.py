@@ -104,7 +104,6 @@ def idle(*overrides: str) -> list[str]:
         ("analysis.search=2", "contact_model=convex", "contact_model=concave"),
         ("analysis.search=2", "scheme=published", "scheme=auto"),
         ("analysis.published.slope=0.01", "scheme=auto", "scheme=published"),
-        ("analysis.gap=1e-5", "contact_model=convex", "contact_model=concave"),
         ("analysis.residual=1e-5", "flow_rule=associative", "flow_rule=dilatancy"),
         ("analysis.residual=1e-5", "scheme=published", "scheme=auto"),
         ("analysis.path.ratio=0.5", "flow_rule=associative", "flow_rule=dilatancy"),
@@ -122,10 +121,10 @@ def test_with_what_a_key_has_an_effect(key: str, idle_with: str, used_with: str)
     assert idle(key, f"analysis.{used_with}") == []
 
 
-def test_reductions_have_no_effect_on_interfaces_of_associative_flow_alone() -> None:
-    ways = ("analysis.reductions=false", "analysis.contact_model=convex")
-    assert len(idle(*ways, "analysis.flow_rule=associative")) == 1
-    assert idle(*ways, "analysis.flow_rule=non_associative") == []
+@pytest.mark.parametrize("key", ["analysis.gap=1e-5", "analysis.reductions=false"])
+def test_keys_of_both_contact_models(key: str) -> None:
+    for rule in ("associative", "non_associative"):
+        assert idle(key, "analysis.contact_model=convex", f"analysis.flow_rule={rule}") == []
 
 
 def test_keys_that_are_not_given_are_not_mentioned() -> None:
