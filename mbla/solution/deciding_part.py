@@ -56,9 +56,13 @@ OF_INTERFACES = Message(
 class SolvedParts:
     """All parts of a structure with what was found for each."""
 
-    parts: tuple[Program, ...]
     results: tuple[PartResult, ...]
     context: PartContext
+
+    @property
+    def parts(self) -> tuple[Program, ...]:
+        """Their programs."""
+        return tuple(result.program for result in self.results)
 
     def mechanics(
         self,

@@ -55,8 +55,9 @@ def solve(
     if interfaces is not NONE:
         crush = program.crushing is not None
         solution = replace(solution, contact_model=settings.analysis.contact_model, stress_blocks=crush)
-    solution = with_proof(program.bodies.model, program.bodies.contacts, program.load_case, solution)
-    return solution_on_blocks(_of_interfaces(program, settings, solution), program.bodies)
+    bodies = program.bodies
+    solution = with_proof(bodies.model, bodies.contacts, program.load_case, solution)
+    return solution_on_blocks(_of_interfaces(program, settings, solution), bodies)
 
 
 def _of_interfaces(program: CaseProgram, settings: SolverSettings, solution: Solution) -> Solution:
@@ -110,7 +111,7 @@ def solve_parts(
     started, (iterations, record) = time.perf_counter(), recorded(log)
     context = PartContext(settings, record, interfaces, beside, states)
     results = tuple(_result_of(program, context) for program in reduced.parts)
-    solution = combined(SolvedParts(reduced.parts, results, context))
+    solution = combined(SolvedParts(results, context))
     assessed = [result.standing for result in results if result.standing is not None]
     standing = worst_standing(assessed) if assessed else None
     if standing is not None:

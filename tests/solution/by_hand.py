@@ -73,6 +73,15 @@ def loaded(case: LoadCase, dead: Sequence[float], live: Sequence[float]) -> Load
     return replace(case, dead_load=np.array([dead], dtype=float), live_load=np.array([live], dtype=float))
 
 
+DEAD, LIVE, RISES = (0, 0, -32, 0, 0, 0), (8, 0, 0, 0, -2, 0), (0.125, 0, 0.0625, 0, 0, 0)
+
+
+def pushed_block(joint: str = "friction: 0.5") -> Line:
+    """The block with a weight of 32 and a push of 8 λ at its base: it slides and rises by μ."""
+    line = cube(joint)
+    return replace(line, load_case=loaded(line.load_case, DEAD, LIVE))
+
+
 def on_ground(model: Model, contacts: Contacts, pressed: Sequence[float]) -> FloatArray:
     """Forces at the corners below a block, N and the force on the block along x and y, the same at each corner."""
     sign = np.where(contacts.bodies[contacts.interface_of_point][:, 1] < len(model.blocks), 1.0, -1.0)

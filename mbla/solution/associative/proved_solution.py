@@ -10,6 +10,7 @@ approximate, and said.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -102,24 +103,28 @@ def take_in_exceeded(run: AssociativeRun, sense: float) -> tuple[AssociativeForm
     sense : of the live load
     """
     rough = replace(run.settings, tolerance=max(run.settings.tolerance, run.settings.proof.rough_tolerance))
-    kind = "associative" if sense > 0.0 else "reverse"
-    while True:
-        form = associative_form(run.program)
-        program = form.cone_program if sense > 0.0 else form.reversed_program
-        solution = solved_once(run, cone_solver(program, rough, run.log), kind, sense)
-        more = run.conditions.with_exceeded(form.forces(solution)) if solution.status in WITH_VALUE else None
-        if more is None:
-            return form, solution
-        run.conditions = more
+    return _within_all(run, rough, sense, lambda solution: solution.status in WITH_VALUE)
 
 
 def _first_solution(run: AssociativeRun) -> tuple[AssociativeForm, ConeSolution]:
     """Of the program whose forces keep within all conditions."""
+
+    def has_forces(solution: ConeSolution) -> bool:
+        return solution.status in WITH_VALUE and not says_it_falls(run, solution)
+
+    return _within_all(run, run.settings, 1.0, has_forces)
+
+
+def _within_all(
+    run: AssociativeRun, settings: SolverSettings, sense: float, has_forces: Callable[[ConeSolution], bool]
+) -> tuple[AssociativeForm, ConeSolution]:
+    """The form and its solution once its forces, where it has some that count, exceed no condition."""
+    kind = "associative" if sense > 0.0 else "reverse"
     while True:
         form = associative_form(run.program)
-        solution = solved_once(run, cone_solver(form.cone_program, run.settings, run.log), "associative", 1.0)
-        valued = solution.status in WITH_VALUE and not says_it_falls(run, solution)
-        more = run.conditions.with_exceeded(form.forces(solution)) if valued else None
+        program = form.cone_program if sense > 0.0 else form.reversed_program
+        solution = solved_once(run, cone_solver(program, settings, run.log), kind, sense)
+        more = run.conditions.with_exceeded(form.forces(solution)) if has_forces(solution) else None
         if more is None:
             return form, solution
         run.conditions = more

@@ -19,7 +19,7 @@ from mbla.arrays import FloatArray
 from mbla.solution.law.elastic_joints import StepState
 from mbla.solution.law.exact_law import forces_by_law
 from mbla.solution.law.joint_equations import JointStep
-from mbla.solution.law.return_map import JointForces, joint_tangents
+from mbla.solution.law.return_map import JointForces, joint_stiffness
 
 ROUNDING, SHARPEST = 1e-11, 1e-14
 """Force without balance, in mean loads of a block, with which a step is solved, and with which iterations end: a block
@@ -91,8 +91,7 @@ def _iteration(
 ) -> tuple[FloatArray, float, FloatArray, JointForces] | None:
     """The next iterate, halved until the residual falls; None where it does not, or where the tangent is singular."""
     joints = step.joints
-    compliance = np.vstack([step.normal_compliance, *[step.shear_compliance] * (joints.program.components - 1)])
-    tangents = joint_tangents(joints, forces) / compliance.T[:, None, :]
+    tangents = joint_stiffness(joints, forces, step.length)
     springs = np.broadcast_to(step.held, u.shape)
     solve = joints.matrix.factorized(tangents, springs, fixed_load=not step.driven)
     change = None if solve is None else solve(-residual)

@@ -59,6 +59,12 @@ def joint_forces(joints: ElasticJoints, trial: FloatArray) -> JointForces:
     return JointForces(normal, shear, direction, size, limit, slips, normal == sliding)
 
 
+def joint_stiffness(joints: ElasticJoints, forces: JointForces, length: float) -> FloatArray:
+    """C = −∂forces/∂v of every joint in a step of a length, (n_points, components, components)."""
+    stiffness = np.vstack([joints.normal, *[joints.shear] * (joints.program.components - 1)]) * length
+    return joint_tangents(joints, forces) * stiffness.T[:, None, :]
+
+
 def joint_tangents(joints: ElasticJoints, forces: JointForces) -> FloatArray:
     """Change of the forces of every joint with its trial forces, (n_points, components, components)."""
     theta, slips, friction = forces.direction.T, forces.slips, joints.friction

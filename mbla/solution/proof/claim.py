@@ -43,11 +43,13 @@ def with_proof(model: Model, contacts: Contacts, load_case: LoadCase, solution: 
     given, fall = solution.associative, solution.certificate
     if given is None and (fall is None or solution.mechanics is not None):
         return solution
-    repair: _AtPoints = _AtPoints(Case(model, contacts, load_case), assemble(model, contacts, load_case))
+    repair: _AtPoints
     if solution.conditions_on_interfaces:
         program = assemble(model, contacts, load_case, own=False)  # motions are in the common unit
         program = replace(program, limits=program.limits.without_crushing(~contacts.tie_points))
         repair = _AtInterfaces(InterfaceCase(model, contacts, load_case, solution.contact_model), program)
+    else:
+        repair = _AtPoints(Case(model, contacts, load_case), assemble(model, contacts, load_case))
     if given is None:
         assert fall is not None
         motion, motions = _fall(repair, (fall, solution.certificate_motions))

@@ -27,7 +27,7 @@ from mbla.solution.law.elastic_joints import Memory, StepState, lengths, within
 from mbla.solution.law.exact_law import forces_by_law
 from mbla.solution.law.joint_equations import JointStep, residual_of
 from mbla.solution.law.joint_step import aimed_direction, direction_of, length_of
-from mbla.solution.law.return_map import JointForces, joint_forces, joint_tangents
+from mbla.solution.law.return_map import JointForces, joint_forces, joint_stiffness
 from mbla.solution.pushover.geometric_stiffness import geometric
 from mbla.solution.pushover.moved_joints import History, JointsAt, MovedJoints
 from mbla.solution.pushover.step_states import below_strength, gone_on, on_central_path
@@ -282,12 +282,6 @@ class PoseStep:
         measure = measure if np.isfinite(measure) else np.inf
         return Found(at, forces, u, factor, done, off, measure), left
 
-    def _tangent(self, at: JointsAt, forces: JointForces) -> FloatArray:
-        """C = −∂forces/∂offsets, (n_points, components, components)."""
-        joints = at.joints
-        stiffness = np.vstack([joints.normal, *[joints.shear] * (joints.program.components - 1)]) * self.joints.length
-        return joint_tangents(joints, forces) * stiffness.T[:, None, :]
-
     def _newton(self, at: JointsAt, u: FloatArray, factor: float, done: float) -> Found | None:
         """The best that Newton's method comes to from a pose; None where there are no numbers."""
         best: Found | None = None
@@ -300,7 +294,7 @@ class PoseStep:
             if best.solved or worse or number == NEWTON:
                 return best
             further = geometric(self.joints, at, found.forces.normal, found.forces.shear)
-            tangent, fixed = self._tangent(at, found.forces), not self.driven
+            tangent, fixed = joint_stiffness(at.joints, found.forces, self.joints.length), not self.driven
             for firm in FIRM:
                 springs = firm * self.joints.length * self.joints.size + self._held
                 stiffness = at.joints.matrix.factorized(tangent, springs, fixed_load=fixed, further=further)

@@ -12,34 +12,7 @@ from mbla.solution.solution import Mechanics
 from mbla.solution.verification.case import Case
 from mbla.solution.verification.proofs import associative_bounds, certificate_failures
 from tests.line import BLOCK, Line, line_of
-from tests.solution.by_hand import cube, loaded, on_ground, state
-
-# A block 1 x 1 x 0.5 on the ground, friction 1/2, weight 32 and a push of 8 λ at its base: it slides and rises by μ.
-
-DEAD, LIVE = (0, 0, -32, 0, 0, 0), (8, 0, 0, 0, -2, 0)
-RISES = (0.125, 0.0, 0.0625, 0.0, 0.0, 0.0)
-
-
-def block(joint: str = "friction: 0.5") -> Line:
-    line = cube(joint)
-    return replace(line, load_case=loaded(line.load_case, DEAD, LIVE))
-
-
-@pytest.fixture(scope="module")
-def dry() -> Line:
-    return block()
-
-
-@pytest.fixture(scope="module")
-def mortar() -> Line:
-    """Cohesion 4, tension 2 at each corner."""
-    return block("friction: 0.5, cohesion: 16, tensile_strength: 8")
-
-
-@pytest.fixture(scope="module")
-def weak() -> Line:
-    """Strength 16 at each corner."""
-    return block("friction: 0.5, compressive_strength: 64")
+from tests.solution.by_hand import DEAD, LIVE, RISES, cube, loaded, on_ground, pushed_block, state
 
 
 def proved(line: Line, mechanics: Mechanics) -> tuple[float, float]:
@@ -223,7 +196,7 @@ def test_what_crushes_takes_work_and_no_charge(weak: Line) -> None:
 @pytest.mark.parametrize(("off", "proves"), [(7e-9, True), (4e-8, False)])
 def test_forces_locked_in_raise_no_bound(off: float, proves: bool) -> None:
     """Corners sheared against each other by 1e8, beside which 3e-7 of the push is little, as it is not beside 32."""
-    bonded = block("friction: 0.5, cohesion: 1e10")
+    bonded = pushed_block("friction: 0.5, cohesion: 1e10")
     found = of_block(bonded, 2.0 + off, 4.0)
     points, frames = bonded.contacts.points, bonded.contacts.frames
     along = points[1] - points[0]
