@@ -21,6 +21,7 @@ ONE_THREAD = {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}
 """of the environment of a process that is measured"""
 
 CASES = {
+    "house": ("state", "what", "figure"),
     "line": ("structure", "flow_rule"),
     "forms": ("structure", "case"),
     "kernels": ("structure", "case"),
