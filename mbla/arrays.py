@@ -7,7 +7,6 @@ a ``start`` array of n + 1 offsets: the items of row i are ``flat[start[i]:start
 from __future__ import annotations
 
 from dataclasses import fields, is_dataclass
-from importlib import import_module
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -16,21 +15,6 @@ from numpy.typing import NDArray
 FloatArray: TypeAlias = NDArray[np.float64]
 IntArray: TypeAlias = NDArray[np.int64]
 BoolArray: TypeAlias = NDArray[np.bool_]
-
-
-def _import_scipy() -> None:
-    """Scipy takes over all names of numpy, with what loads a compiler and a test suite: a tenth of a run's imports."""
-    unneeded = [name for name in ("f2py", "testing", "polynomial") if name not in vars(np)]
-    vars(np).update(dict.fromkeys(unneeded))
-    try:
-        import_module("scipy.sparse")
-    finally:
-        for name in unneeded:
-            if vars(np).get(name) is None:
-                del vars(np)[name]
-
-
-_import_scipy()
 
 
 def starts(counts: IntArray) -> IntArray:

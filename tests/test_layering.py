@@ -8,6 +8,8 @@ import sys
 from functools import cache
 from pathlib import Path
 
+import pytest
+
 import mbla
 
 PACKAGE = Path(mbla.__file__).parent
@@ -37,6 +39,26 @@ DOORS = {
     "dask": "sweeps/engine/cluster.py",
     "distributed": "sweeps/engine/cluster.py",
 }
+KINDS_IN = {"deck/sections/blocks.py": "mbla.model.blocks"}
+"""the exception to the order of stages: the one file of the deck that asks for the kinds of things that it is made of,
+and where they are at home"""
+GIVEN_TO_KINDS = {
+    "deck/__init__.py",
+    "deck/expressions.py",
+    "deck/kinds.py",
+    "deck/quantities.py",
+    "deck/section.py",
+    "deck/sections/__init__.py",
+    "deck/sections/geometry_file.py",
+    "deck/sections/placement.py",
+    "deck/sections/selectors.py",
+    "deck/suggestions.py",
+    "deck/text/__init__.py",
+    "deck/text/sources.py",
+    "deck/text/tree.py",
+    "deck/units.py",
+}
+"""files of the deck that kinds are made of, by themselves or through others: none of them knows of a kind"""
 SECOND_DERIVATION = "solution/verification/"
 GIVEN_TO_IT = {
     "program/yield_conditions/limits.py": "strengths as data",
@@ -89,6 +111,8 @@ def test_stages_import_from_the_left_and_each_library_has_one_door() -> None:
         allowed |= {*WHOLE_LINE} if stage == "sweeps" else set()
         for name, at_run_time in imports_of(path).items():
             package, *rest = name.split(".")
+            if name == KINDS_IN.get(place) or name.startswith(f"{KINDS_IN.get(place)}."):
+                continue
             if allowed and package == "mbla" and rest and rest[0] not in allowed:
                 wrong.append(f"{place} imports {name}")
             if at_run_time and DOORS.get(package, place) != place:
@@ -96,10 +120,10 @@ def test_stages_import_from_the_left_and_each_library_has_one_door() -> None:
     assert wrong == []
 
 
-def test_what_is_claimed_is_judged_by_a_second_derivation() -> None:
-    """What the verification imports, and what that imports, is its own, given to it, or of the stages before."""
+def seen_from(folder: str) -> set[str]:
+    """Files of a folder, and all that they import at run time, by themselves or through others."""
     paths = {str(path.relative_to(PACKAGE)): path for path in FILES}
-    seen, rest = set[str](), [place for place in paths if place.startswith(SECOND_DERIVATION)]
+    seen, rest = set[str](), [place for place in paths if place.startswith(folder)]
     assert rest
     while rest:
         place = rest.pop()
@@ -109,6 +133,19 @@ def test_what_is_claimed_is_judged_by_a_second_derivation() -> None:
         for name in (name for name, at_run_time in imports_of(paths[place]).items() if at_run_time):
             file = name.removeprefix("mbla.").replace(".", "/")
             rest += [found for found in (f"{file}.py", f"{file}/__init__.py") if found in paths]
+    return seen
+
+
+@pytest.mark.parametrize("home", KINDS_IN.values())
+def test_kinds_are_made_of_leaves_of_the_deck(home: str) -> None:
+    """Kinds register with the deck: what they import of it must not need them."""
+    seen = seen_from(f"{home.removeprefix('mbla.').replace('.', '/')}/")
+    assert {place for place in seen if place.startswith("deck/")} <= GIVEN_TO_KINDS
+
+
+def test_what_is_claimed_is_judged_by_a_second_derivation() -> None:
+    """What the verification imports, and what that imports, is its own, given to it, or of the stages before."""
+    seen = seen_from(SECOND_DERIVATION)
     later = {place for place in seen if place.startswith(("program/", "solution/", "results/", "sweeps/"))}
     assert {place for place in later if not place.startswith(SECOND_DERIVATION)} == set(GIVEN_TO_IT)
 
@@ -145,8 +182,8 @@ def test_help_imports_nothing_heavy() -> None:
     assert not heavy & set(loaded)
 
 
-def test_a_faulty_deck_imports_no_numerical_library(tmp_path: Path) -> None:
-    """Its faults are told at once; numpy and what needs it take longer to import than the deck to read."""
+def test_a_faulty_deck_imports_numpy_and_nothing_heavier(tmp_path: Path) -> None:
+    """Its faults are told at once; what computes takes longer to import than the deck to read."""
     deck = tmp_path / "faulty.yaml"
     deck.write_text("mbla: 1\n", encoding="utf-8")
     code = (
@@ -159,5 +196,5 @@ def test_a_faulty_deck_imports_no_numerical_library(tmp_path: Path) -> None:
         [sys.executable, "-c", code], capture_output=True, text=True, check=True
     ).stdout.split()
     assert status == "3"
-    heavy = {"numpy", "scipy", "meshio", "h5py", "clarabel", "shapely", "manifold3d", "matplotlib", "vtk"}
+    heavy = {"scipy", "meshio", "ezdxf", "h5py", "clarabel", "shapely", "manifold3d", "matplotlib", "vtk"}
     assert not heavy & set(loaded)

@@ -1,8 +1,8 @@
 """The type of a complete deck: the source of the schema, of the checks on single values and of the key reference.
 
 Numbers are in the deck's own units; a string with a unit (``"18 kN/m^3"``) is converted while it is read.
-Sections and items of `blocks` stand in ``sections`` and ``items``, with their rules; here are `units`, `output` and
-`expected`.
+Sections stand in ``sections`` with their rules, kinds of items of `blocks` in ``mbla.model.blocks``; here are `units`,
+`output` and `expected`.
 """
 
 from __future__ import annotations
@@ -13,10 +13,10 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Field
 
-from mbla.deck.items import BlockItem
 from mbla.deck.quantities import Count, Integer, Line, Name, Number, ParameterName, PositiveNumber, Switch
 from mbla.deck.section import Section, given, rule
 from mbla.deck.sections.analysis import AnalysisSection
+from mbla.deck.sections.blocks import BlockItem
 from mbla.deck.sections.contacts import ContactsSection
 from mbla.deck.sections.fill import Fill
 from mbla.deck.sections.find import FindSection

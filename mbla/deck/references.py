@@ -12,7 +12,8 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
-from mbla.deck.items import BlockItem
+from mbla.deck.kinds import in_order
+from mbla.deck.sections.blocks import ITEM_KINDS
 from mbla.deck.sections.materials import BUILT_IN
 from mbla.deck.suggestions import unknown
 from mbla.deck.text.tree import KeyPath, Tree
@@ -66,9 +67,9 @@ REFERENCES = (
     Reference("contacts.joint", "joint law", BUILT_IN),
     Reference("contacts.overrides.#.joint", "joint law", BUILT_IN),
     *(
-        Reference(f"blocks.#.{kind}.openings.#.{over}.material", "material")
-        for kind in ("wall", "walls")
-        for over in ("lintel", "arch")
+        Reference(f"blocks.#.{kind.name}.{place}", "material")
+        for kind in in_order(ITEM_KINDS)
+        for place in kind.materials
     ),
     Reference("supports.#.joint", "joint law", BUILT_IN),
     Reference("fill.*.material", "material"),
@@ -143,14 +144,13 @@ def unused_names(data: dict[str, Any]) -> Iterator[tuple[str, str]]:
 def groups(data: dict[str, Any]) -> Iterator[str]:
     """Names of the groups that the items of `blocks` make."""
     for (_, _, kind), item in find(data, ["blocks", "#", "*"]):
-        if isinstance(item, dict) and kind in BlockItem.model_fields:
+        if isinstance(item, dict) and kind in ITEM_KINDS:
             group = item.get("group", kind)
             if isinstance(group, str):
                 yield group
-                if item.get("springers") == "blocks":
-                    yield f"{group}_springers"
-                if item.get("wall") in ("shelf", "pocket"):
-                    yield f"{group}_wall"
+                yield from (
+                    group + side.suffix for side in ITEM_KINDS[kind].groups if item.get(side.key) in side.values
+                )
 
 
 def find(data: Any, pattern: list[str], path: KeyPath = ()) -> Iterator[tuple[KeyPath, Any]]:
@@ -173,9 +173,7 @@ def _keys(section: Any) -> list[str]:
 
 
 SIDE_FILES = (
-    "blocks.#.mesh.file",
-    "blocks.#.table.vertices",
-    "blocks.#.table.faces",
+    *(f"blocks.#.{kind.name}.{key}" for kind in in_order(ITEM_KINDS) for key in kind.files),
     "supports.#.surface.file",
     "contacts.table",
     *(f"{loads}.#.table" for loads in LOADS),

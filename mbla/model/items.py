@@ -10,21 +10,20 @@ import numpy as np
 
 from mbla.arrays import BoolArray, IntArray
 from mbla.deck.deck import Deck
-from mbla.deck.items import BlockItem
-from mbla.deck.items.item import Item
+from mbla.deck.sections.blocks import BlockItem
 from mbla.deck.sections.materials import Material
 from mbla.deck.text.tree import KeyPath
 from mbla.deck.units import Units
 from mbla.errors import DeckError, Fault, Finding, Message, Notice
-from mbla.model.generators import KINDS, amounts, generator_of
-from mbla.model.generators.generator import Generated, ItemRefused, Part, Site
+from mbla.model.blocks import amounts
+from mbla.model.blocks.generated import Generated, ItemRefused, Part, Site
 from mbla.model.geometry.sheets import sheets
 from mbla.model.model import Ground
 from mbla.model.solids.blocks import Blocks, join_labels, labels_of
 from mbla.model.solids.build import Labels, indices_in_groups
 from mbla.model.solids.defects import Defect
 from mbla.model.solids.polyhedra import Polyhedra, join_polyhedra, take_polyhedra
-from mbla.model.surfaces import Surface
+from mbla.model.solids.surface import Surface
 from mbla.model.transform import build_transform, repetitions, transform_item
 
 
@@ -65,11 +64,11 @@ def collect_items(deck: Deck, faults: list[Fault]) -> CollectedItems:
     partial: set[str] = set()
     n_blocks = 0
     for number, block_item in enumerate(deck.content.blocks):
-        kind, item = kind_of(block_item)
-        path: KeyPath = ("blocks", number, kind)
-        group = item.group or kind
+        kind, item = block_item.facts, block_item.item
+        path: KeyPath = ("blocks", number, kind.name)
+        group = item.group or kind.name
         try:
-            generated = _generate(deck, kind, item, path)
+            generated = _generate(deck, block_item, path)
             copies = repetitions(item.repeat)
             made = n_blocks + len(copies) * sum(len(part.polyhedra) for part in generated.parts)
             if made > amounts.MOST:
@@ -78,7 +77,7 @@ def collect_items(deck: Deck, faults: list[Fault]) -> CollectedItems:
             findings = refused.findings if isinstance(refused, ItemRefused) else ()
             faults += [deck.fault_at((*path, *below), message) for below, message in findings]
             faults += refused.faults if isinstance(refused, DeckError) else ()
-            partial |= {group, f"{group}_springers", f"{group}_wall"}
+            partial |= {group, *(group + side.suffix for side in kind.groups)}
             continue
         notices += generated.notices
         for copy, onwards in enumerate(copies):
@@ -119,11 +118,6 @@ def collect_items(deck: Deck, faults: list[Fault]) -> CollectedItems:
     )
 
 
-def kind_of(entry: BlockItem) -> tuple[str, Item]:
-    """Key and content of an item of the deck."""
-    return next((kind, item) for kind in KINDS if (item := getattr(entry, kind)) is not None)
-
-
 def density_of(material: Material, units: Units) -> float:
     """Mass per volume; a unit weight is one under standard gravity."""
     if material.density is not None:
@@ -132,13 +126,17 @@ def density_of(material: Material, units: Units) -> float:
     return material.unit_weight / (units.standard_gravity * units.force_per_mass_acceleration)
 
 
-def _generate(deck: Deck, kind: str, item: Item, path: KeyPath) -> Generated:
+def _generate(deck: Deck, block_item: BlockItem, path: KeyPath) -> Generated:
     """An item in the coordinates of the deck."""
+    item = block_item.item
     site = Site(
         deck.contacts.tolerance, lambda below, name: deck.resolve_file((*path, *below), name), deck.units.length
     )
     with np.errstate(over="ignore", invalid="ignore"):  # coordinates that are not finite are refused by block
-        generated = generator_of(kind)(item, site)
+        kind = block_item.facts
+        generated = kind.generate(item, site)
+        positions = {name for part in generated.parts for name in part.labels}
+        assert positions <= {*kind.positions}, f"{kind.name} gives {positions - {*kind.positions}}"
         transform = build_transform(item.transform)
         return generated if transform is None else transform_item(generated, transform)
 
@@ -147,11 +145,10 @@ def _refuse_amounts(deck: Deck) -> None:
     """DeckError where items make more than can be handled, each or together, before any of them is made."""
     faults, together = [], 0.0
     for number, block_item in enumerate(deck.content.blocks):
-        kind, item = kind_of(block_item)
-        units, key = amounts.amount_of(item)
-        units *= min(amounts.copies_of(item), 10 * amounts.MOST)
+        units, key = block_item.facts.amount(block_item.item)
+        units *= min(amounts.copies_of(block_item.item.repeat), 10 * amounts.MOST)
         if units > amounts.MOST:
-            path: KeyPath = ("blocks", number, kind, key) if key else ("blocks", number, kind)
+            path: KeyPath = ("blocks", number, block_item.kind, *((key,) if key else ()))
             faults.append(deck.fault_at(path, Message("too-many-units", f"makes {amounts.too_many(units)}")))
         else:
             together += units
@@ -170,8 +167,6 @@ def _named(ground: Ground, labels: Labels) -> Ground:
     return replace(ground, label=f"ground under {labels.name(int(ground.blocks[0]))}{more}")
 
 
-FROM_FILES = ("mesh", "table")
-"""kinds of items whose blocks have names of their own"""
 MOST_FAULTS_PER_ITEM = 10
 """defects of blocks of one item that are reported one by one; a mesh in the wrong format has one in every block"""
 
@@ -206,35 +201,27 @@ def _flat_faces(deck: Deck, defects: Sequence[Defect], item_of_block: IntArray, 
     others = []
     for defect in defects:
         number = int(item_of_block[defect.block])
-        from_file = kind_of(deck.content.blocks[number])[0] in FROM_FILES
+        from_file = deck.content.blocks[number].facts.files
         if from_file and sheets(take_polyhedra(blocks, np.array([defect.block])))[1][0]:
             flat.setdefault(number, []).append(defect)
         else:
             others.append(defect)
     for number, found in flat.items():
-        in_table = kind_of(deck.content.blocks[number])[0] == "table"
-        member = blocks.labels.members[found[0].block]
+        remedy_for = deck.content.blocks[number].facts.flat_face
+        assert remedy_for is not None  # of kinds with files
+        remedy = remedy_for(blocks.labels.members[found[0].block], len(found) > 1)
         several = f", and so are {len(found) - 1} more" if len(found) > 1 else ""
-        names = f"[{member}{', ...' if several else ''}]"
-        if in_table:
-            remedy = f"leave_out: {names}, and a surface in supports where it is ground"
-        elif member and not several:
-            remedy = f"supports: {names} of the mesh makes it rigid ground, leave_out: {names} leaves it out"
-        else:
-            remedy = "flat_faces: supports of the mesh makes them rigid ground, flat_faces: leave_out leaves them out"
         others.append(Defect(found[0].block, Message("flat-face", f"is a flat face, no block{several}: {remedy}")))
     return sorted(others, key=lambda defect: defect.block)
 
 
 def _called(deck: Deck, blocks: Blocks, block: int, number: int) -> str:
     """Name of a block; with that which its file gives it, where it comes from one: ``vault[17] (key_stone)``."""
-    member = blocks.labels.members[block] if kind_of(deck.content.blocks[number])[0] in FROM_FILES else ""
+    member = blocks.labels.members[block] if deck.content.blocks[number].facts.files else ""
     return f"{blocks.name(block)}{f' ({member})' if member else ''}"
 
 
 def _path(deck: Deck, face: int | None, number: int) -> KeyPath:
-    """The face of a block that the deck spells out, the file of a mesh, or the item."""
-    kind, _ = kind_of(deck.content.blocks[number])
-    if kind == "polyhedron" and face is not None:
-        return ("blocks", number, kind, "faces", face)
-    return ("blocks", number, kind, "file") if kind == "mesh" else ("blocks", number, kind)
+    """Where a defect of a block of an item, or of a face of it, is told."""
+    kind = deck.content.blocks[number].facts
+    return ("blocks", number, kind.name, *kind.place(face))

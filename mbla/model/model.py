@@ -16,6 +16,9 @@ from mbla.model.guides import NO_GUIDES, Guides, joined
 from mbla.model.solids.blocks import Blocks
 from mbla.model.solids.facets import NO_BENT_FACES, BentFaces
 from mbla.model.ties.ties import NO_TIES, Ties
+from mbla.process.imports import import_scipy
+
+import_scipy()  # before the stages that compute
 
 
 @dataclass(frozen=True)

@@ -3,24 +3,36 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray, summed
 from mbla.deck.deck import Deck
 from mbla.deck.sections.contacts import ContactsSection
+from mbla.deck.sections.geometry_file import GeometryFile
 from mbla.deck.sections.supports import Plane
+from mbla.deck.sections.supports import Surface as SurfaceSection
 from mbla.deck.text.tree import KeyPath
-from mbla.errors import Finding
-from mbla.model.generators.file_supports import surfaces_of
+from mbla.errors import DeckError, Finding
+from mbla.model.blocks.files.members import placed_vertices, read_members, surfaces_of_sheets
+from mbla.model.blocks.generated import ItemRefused
+from mbla.model.geometry.sheets import sheets
 from mbla.model.guides import NO_GUIDES, Guides, guides_of, is_guide, joined
 from mbla.model.model import Ground
 from mbla.model.selectors import Roster, select_blocks
 from mbla.model.solids.blocks import Blocks
 from mbla.model.solids.plane import unit
 from mbla.model.solids.ragged import row_maxima
-from mbla.model.surfaces import FACING, Carried, Surface, allowed_blocks, grounds_of_surfaces, touching_only
+from mbla.model.solids.surface import Surface
+from mbla.model.surfaces import (
+    FACING,
+    Carried,
+    allowed_blocks,
+    grounds_of_surfaces,
+    surface_of_polygon,
+    touching_only,
+)
 from mbla.model.wording import named, vector
 
 
@@ -67,7 +79,7 @@ def build_supports(
                 continue
         joint = support.joint or deck.contacts.joint
         if support.surface is not None:
-            found = surfaces_of(support.surface, (*path, "surface"), deck, roster)
+            found = _surfaces_of(support.surface, (*path, "surface"), deck, roster)
             complete &= bool(found)
             sheets.append(((*path, "surface"), joint, found, chosen))
         elif support.ground is not None:
@@ -174,3 +186,41 @@ def _faces_on(
     near = (above <= contacts.tolerance * size) & (below <= contacts.depth_allowed * size)
     facing = blocks.face_normals @ ground.normal < -FACING
     return bool((facing & near & may_carry[blocks.block_of_face]).any())
+
+
+def _surfaces_of(section: SurfaceSection, path: KeyPath, deck: Deck, roster: Roster) -> tuple[Surface, ...]:
+    """The surfaces that an item of `supports` describes; faults go to the roster, and then there is none."""
+    tolerance = deck.contacts.tolerance
+    if section.polygon is not None:
+        found = surface_of_polygon(section.polygon, (*path, "polygon"), tolerance)
+        if isinstance(found, Surface):
+            return (found,)
+        roster.refuse(found)
+        return ()
+    assert section.file is not None  # a rule of the deck: one of polygon and file
+    item = GeometryFile.model_construct(
+        file=section.file,
+        units=section.units,
+        scale=section.scale or 1.0,
+        up=section.up,
+        members=section.members,
+    )
+    try:
+        geometry = read_members(deck.resolve_file((*path, "file"), section.file), item)
+        if geometry.planar or geometry.cells:
+            kind = "outlines" if geometry.planar else "volume cells"
+            raise ItemRefused(Finding("surface-unfit", f"holds {kind}, no surfaces", "file"))
+        placed = placed_vertices(geometry, item, deck.units.length)
+        geometry = replace(geometry, polyhedra=replace(geometry.polyhedra, vertices=placed))
+        closed = np.flatnonzero(~sheets(geometry.polyhedra)[0])
+        if len(closed):
+            name = geometry.names[closed[0]] if geometry.names else "what it holds"
+            words = f"{name} is a closed solid, no surface: name the surfaces with members, or fix a block"
+            raise ItemRefused(Finding("surface-unfit", words, "file"))
+        return surfaces_of_sheets(geometry, "file", tolerance)
+    except ItemRefused as refused:
+        for below, message in refused.findings:
+            roster.refuse(Finding(message.identifier, message.words, *path, *below))
+    except DeckError as error:
+        roster.faults.extend(fault for fault in error.faults if fault not in roster.faults)
+    return ()

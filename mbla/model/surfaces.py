@@ -15,10 +15,10 @@ from mbla.model.geometry.sheets import fitted_plane, flattened
 from mbla.model.model import Ground
 from mbla.model.selectors import Roster
 from mbla.model.solids.blocks import Blocks
-from mbla.model.solids.plane import plane_axes, unit
+from mbla.model.solids.plane import plane_axes
 from mbla.model.solids.polygons import polygons_from_loops, widths
 from mbla.model.solids.ragged import row_maxima
-from mbla.model.wording import vector
+from mbla.model.solids.surface import Surface
 
 FACING = 0.99
 """cosine of the greatest angle between a face and the ground it lies on"""
@@ -26,29 +26,6 @@ NEAR = 10.0
 """tolerances up to which a face that misses a surface is told as a near miss of it"""
 THIN = 1e-6
 """extent of corners over the greatest at which they lie on one line"""
-
-
-@dataclass(frozen=True)
-class Surface:
-    """A flat surface of no thickness.
-
-    outline : (n, 3) corners in order, either way round, in one plane
-    name    : of the object of a file that it is of, empty where it has none
-    """
-
-    outline: FloatArray
-    name: str = ""
-
-    @property
-    def label(self) -> str:
-        """How messages call it: ``surface ground``, or by the middle of its corners."""
-        return f"surface {self.name}" if self.name else f"surface at {vector(self.outline.mean(axis=0))}"
-
-    @property
-    def normal(self) -> FloatArray:
-        """Unit, (3,), about which the corners run counter-clockwise."""
-        arms = self.outline - self.outline.mean(axis=0)
-        return unit(np.cross(arms, np.roll(arms, -1, axis=0)).sum(axis=0))
 
 
 def surface_of_polygon(points: Sequence[Sequence[float]], path: KeyPath, tolerance: float) -> Surface | Finding:

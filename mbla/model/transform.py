@@ -16,8 +16,8 @@ from functools import reduce
 import numpy as np
 
 from mbla.arrays import FloatArray
-from mbla.deck.items.item import Repetition, Rotation, TransformStep
-from mbla.model.generators.generator import Generated
+from mbla.deck.sections.placement import Repetition, Rotation, TransformStep
+from mbla.model.blocks.generated import Generated
 from mbla.model.solids.plane import unit
 from mbla.model.solids.polyhedra import Polyhedra, turn_faces
 

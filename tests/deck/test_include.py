@@ -23,7 +23,7 @@ def test_lists_are_joined_included_items_first(tmp_path: Path) -> None:
     item = "{group: base, material: stone, min: [0, 0, -1], max: [1, 1, 0]}"
     write(tmp_path, f"blocks:\n  - box: {item}\n", "more.yaml")
     deck = read_deck(write(tmp_path, INCLUDING))
-    assert [item.box.group for item in deck.content.blocks if item.box] == ["base", "block"]
+    assert [each.item.group for each in deck.content.blocks] == ["base", "block"]
     assert str(deck.fault_at(("blocks", 0, "box", "min", 2), Message("not-a-number", "no"))) == (
         f"{tmp_path}/more.yaml:2:53 blocks[0].box.min[2] = -1: no"
     )

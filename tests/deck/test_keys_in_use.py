@@ -7,13 +7,14 @@ from pathlib import Path
 import pytest
 
 from mbla.deck.content import DeckContent
-from mbla.deck.items import BlockItem
-from mbla.deck.items.item import TransformStep
 from mbla.deck.section import EXACTLY_ONE, Section
+from mbla.deck.sections.blocks import BlockItem
 from mbla.deck.sections.load_cases import ASKED, LoadCaseSection
 from mbla.deck.sections.loads import Load
 from mbla.deck.sections.materials import BUILT_IN
+from mbla.deck.sections.placement import TransformStep
 from mbla.deck.sections.supports import Support
+from mbla.model.blocks.mesh import MeshItem
 from mbla.model.geometry import READERS
 from tests.deck.keys_in_use import Key, all_keys, keys_in_use, sections_of
 from tests.decks.folder import PATHS, deck_of
@@ -59,5 +60,6 @@ def test_every_built_in_joint_law_is_in_a_deck(contents: list[DeckContent]) -> N
 
 
 def test_every_kind_of_geometry_file_is_in_a_deck(contents: list[DeckContent]) -> None:
-    used = {Path(item.mesh.file).suffix.lower() for each in contents for item in each.blocks if item.mesh is not None}
+    meshes = [each for each in sections_of(contents) if isinstance(each, MeshItem)]
+    used = {Path(each.file).suffix.lower() for each in meshes}
     assert set(READERS) == used

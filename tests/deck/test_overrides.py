@@ -7,6 +7,7 @@ import pytest
 from mbla.deck import Deck, read_deck
 from mbla.deck.text.overrides import next_key
 from mbla.errors import Message
+from mbla.model.blocks.box import BoxItem
 from tests.deck.decks import BLOCK, changed, faults, write
 
 
@@ -34,14 +35,15 @@ def test_value_may_be_an_expression_or_hold_a_unit(path: Path) -> None:
 
 def test_item_of_a_list_by_its_number(path: Path) -> None:
     (item,) = read_deck(path, ["blocks.0.box.max.2=3"]).content.blocks
-    assert item.box is not None
-    assert item.box.max == (1.0, 1.0, 3.0)
+    assert isinstance(item.item, BoxItem)
+    assert item.item.max == (1.0, 1.0, 3.0)
 
 
 def test_lists_and_mappings(path: Path) -> None:
     content = read_deck(path, ["blocks.0.box.max=[1, 2, 3]", "joints.dry={friction: 0.7, cohesion: 5}"]).content
-    assert content.blocks[0].box is not None
-    assert content.blocks[0].box.max == (1.0, 2.0, 3.0)
+    box = content.blocks[0].item
+    assert isinstance(box, BoxItem)
+    assert box.max == (1.0, 2.0, 3.0)
     assert (content.joints["dry"].friction, content.joints["dry"].cohesion) == (0.7, 5.0)
 
 

@@ -8,6 +8,8 @@ from hypothesis import strategies as st
 
 from mbla.deck import read_deck
 from mbla.errors import DeckError, Fault, Message, Place
+from mbla.model.blocks.box import BoxItem
+from mbla.model.blocks.wall import WallItem
 from tests.deck.decks import BLOCK, changed, write
 
 COMPLETE = """mbla: 1                                  # deck format version, required
@@ -93,8 +95,8 @@ expected:
 
 def test_complete_deck(tmp_path: Path) -> None:
     deck = read_deck(write(tmp_path, COMPLETE))
-    wall = deck.content.blocks[0].wall
-    assert wall is not None
+    wall = deck.content.blocks[0].item
+    assert isinstance(wall, WallItem)
     assert wall.length == 2.0
     assert deck.content.joints["dry"].friction == 0.65
     assert deck.content.load_cases["lintel_push"].dead is None
@@ -106,7 +108,7 @@ def test_fragments(tmp_path: Path) -> None:
     assert content.materials["stone"].unit_weight == 18e3
     assert content.joints["dry"].friction_angle == pytest.approx(28.64788975654116)
     assert content.joints["mortar"].cohesion == 50e3
-    assert [next(iter(item.model_fields_set)) for item in content.blocks] == [
+    assert [item.kind for item in content.blocks] == [
         *("polyhedron", "mesh", "arch", "arch", "box", "box"),
     ]
 
@@ -115,8 +117,8 @@ def test_numbers_are_in_the_units_of_the_deck(tmp_path: Path) -> None:
     text = changed("length: m, force: N, mass: kg", "length: mm, force: kN, mass: t")
     deck = read_deck(write(tmp_path, text.replace("max: [1, 1, 1]", 'max: [1, "1 m", "=2*mu"]')))
     (item,) = deck.content.blocks
-    assert item.box is not None
-    assert item.box.max == (1.0, 1000.0, 1.2)
+    assert isinstance(item.item, BoxItem)
+    assert item.item.max == (1.0, 1000.0, 1.2)
     assert deck.units.length == "mm"
 
 
@@ -124,8 +126,8 @@ def test_numbers_are_in_the_units_of_the_deck(tmp_path: Path) -> None:
 def test_counts_from_expressions(tmp_path: Path, text: str, count: int) -> None:
     deck = COMPLETE.replace("n: 5", "n: 3").replace("courses: 6", f"courses: {text}")
     deck = deck.replace("openings: [{from: [0.8, 0.35], to: [1.2, 0.875]}]", "")
-    wall = read_deck(write(tmp_path, deck)).content.blocks[0].wall
-    assert wall is not None
+    wall = read_deck(write(tmp_path, deck)).content.blocks[0].item
+    assert isinstance(wall, WallItem)
     assert wall.courses == count
     assert isinstance(wall.courses, int)
 

@@ -5,6 +5,7 @@ Added masses weigh as the blocks do, each where it is.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -13,7 +14,7 @@ import pytest
 from mbla.deck import read_deck
 from mbla.errors import DeckError
 from mbla.model import build_model
-from mbla.model.generators import amounts
+from mbla.model.blocks import ITEM_KINDS, amounts
 from mbla.model.model import Model
 from tests.deck.decks import BLOCK, write
 from tests.model.shapes import write_deck
@@ -54,7 +55,8 @@ def test_an_item_of_too_many_units(tmp_path: Path, item: str, key: str) -> None:
 
 
 def test_items_are_counted_together_before_any_is_made(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("mbla.model.items.generator_of", lambda kind: pytest.fail(f"a {kind} is made"))
+    unmade = replace(ITEM_KINDS["wall"], generate=lambda item, site: pytest.fail("a wall is made"))
+    monkeypatch.setitem(ITEM_KINDS, "wall", unmade)
     wall = "  - wall: {material: stone, unit: [0.4, 0.2, 0.1], length: 360, courses: 1000}\n"
     assert faults(tmp_path, 3 * wall) == [
         "10:3 blocks: the items make about 3e+06 units; at most 2,000,000 can be handled"

@@ -10,6 +10,7 @@ import pytest
 from mbla.deck import read_deck
 from mbla.deck.parameter_keys import path_of_key, unit_of
 from mbla.errors import DeckError
+from mbla.model.blocks.arch import ArchItem
 from mbla.sweeps.base import Base, check_points
 from mbla.sweeps.design.build import design_of
 from mbla.sweeps.design.design import Point
@@ -44,8 +45,9 @@ def test_paths_units_vectors(base: Base) -> None:
     assert base.sources.known == {"mu": 0.65, "radius": 1.0, "t": 0.15, "spare": 1}
     assert base.cases == ("down", "push_x")
     assert base.fixed == ("blocks.0.arch.width=0.4", 'analysis.accuracy="draft"')
-    assert base.deck.content.blocks[0].arch is not None
-    assert base.deck.content.blocks[0].arch.width == 0.4
+    arch = base.deck.content.blocks[0].item
+    assert isinstance(arch, ArchItem)
+    assert arch.width == 0.4
 
 
 @pytest.mark.parametrize(

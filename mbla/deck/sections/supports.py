@@ -7,9 +7,9 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from mbla.deck.items.files import FileUnit, Names
 from mbla.deck.quantities import Direction, Length, Name, Point, PositiveNumber, Switch
 from mbla.deck.section import Section, exactly_one_of, given, rule
+from mbla.deck.sections.geometry_file import FileUnit, Names
 from mbla.deck.sections.selectors import Selector
 from mbla.errors import Finding
 

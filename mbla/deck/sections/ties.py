@@ -7,7 +7,6 @@ from typing import Annotated, Any, Literal, TypeAlias
 
 from pydantic import Discriminator, Field, Tag
 
-from mbla.deck.items.item import Repeat
 from mbla.deck.quantities import (
     Length,
     Name,
@@ -19,6 +18,7 @@ from mbla.deck.quantities import (
     PositiveStress,
 )
 from mbla.deck.section import Section, exactly_one_of, given, rule
+from mbla.deck.sections.placement import Repeat
 from mbla.deck.sections.selectors import Selector
 from mbla.errors import Finding
 

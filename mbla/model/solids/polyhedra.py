@@ -1,4 +1,4 @@
-"""Raw polyhedra: what generators and geometry files deliver, before anything about them is checked.
+"""Raw polyhedra: what kinds of items and geometry files deliver, before anything about them is checked.
 
 Among them blocks swept through a chain of polygons: prisms, frusta, and blocks bent along a curve. Between two of the
 polygons lies one face for each of their edges, planar where the edge and its image lie in a plane: parallel edges

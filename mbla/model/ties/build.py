@@ -15,12 +15,13 @@ from mbla.deck.section import given
 from mbla.deck.sections.ties import FORMS, Plate, TieSection
 from mbla.deck.text.tree import KeyPath
 from mbla.errors import Finding
-from mbla.model.generators import amounts
+from mbla.model.blocks.amounts import copies_of
 from mbla.model.selectors import Roster, select_blocks
 from mbla.model.solids.blocks import Blocks
 from mbla.model.solids.plane import unit
 from mbla.model.solids.ragged import items_of_rows
 from mbla.model.solids.touching import is_within, touched_blocks
+from mbla.model.ties.amounts import MOST_TIES, lines_of
 from mbla.model.ties.ties import NO_TIES, OUTSIDE, Ties, joined_ties, pulls_along
 from mbla.model.transform import AffineMap, repetitions
 from mbla.model.wording import counted, named, vector
@@ -71,11 +72,11 @@ def build_ties(sections: Sequence[TieSection], roster: Roster, fixed: BoolArray,
 
 def _refused_for_number(sections: Sequence[TieSection], roster: Roster) -> bool:
     """Whether ties lay out more lines than can be handled, each or together, before any of them is made."""
-    most, counts = amounts.MOST_TIES, [amounts.lines_of(section) for section in sections]
+    most, counts = MOST_TIES, [lines_of(section) for section in sections]
     words = f"ties; at most {most:,} can be handled: check repeat, and the unit of what moves copies"
     too_many = [number for number, count in enumerate(counts) if count > most]
     for number in too_many:
-        key = ("repeat",) if amounts.copies_of(sections[number]) > 1 else ()
+        key = ("repeat",) if copies_of(sections[number].repeat) > 1 else ()
         about = f"lays out {min(counts[number], 10**300):.0e} {words}"
         roster.refuse(Finding("too-many-ties", about, "ties", number, *key))
     if not too_many and sum(counts) > most:

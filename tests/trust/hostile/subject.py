@@ -12,7 +12,7 @@ from mbla.deck import read_deck
 from mbla.deck.content import DeckContent
 from mbla.deck.section import built
 from mbla.errors import DeckError
-from mbla.model.generators import amounts
+from mbla.model.blocks import amounts
 from mbla.process.run_options import RunOptions
 from mbla.sweeps.command import SweepOptions, prepare
 from mbla.sweeps.file.content import SweepContent

@@ -1,0 +1,26 @@
+"""Section `blocks`: items, of the kinds that the files of ``mbla.model.blocks`` register."""
+
+from __future__ import annotations
+
+from mbla.deck.kinds import Choice, keys_of
+from mbla.deck.section import exactly_one_of
+from mbla.model.blocks import ITEM_KINDS as ITEM_KINDS
+from mbla.model.blocks.item import Item
+from mbla.model.blocks.item_kind import ItemKind
+
+
+@exactly_one_of()
+@keys_of(ITEM_KINDS)
+class BlockItem(Choice):
+    """An item of `blocks`: exactly one key, its kind."""
+
+    @property
+    def item(self) -> Item:
+        """What stands at its key."""
+        item: Item = self.chosen
+        return item
+
+    @property
+    def facts(self) -> ItemKind:
+        """What is known of its kind."""
+        return ITEM_KINDS[self.kind]

@@ -1,0 +1,1 @@
+"""Geometry of arch bridges: arches with what carries them, and masonry on them."""

@@ -1,0 +1,1 @@
+"""What vaults have in common: keys of their curve and bond, and webs that meet in mitred blocks."""
