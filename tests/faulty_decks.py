@@ -1,6 +1,6 @@
 """The decks of tests/invalid_decks: what is wrong with each by its place and identifier, and the sentences of all.
 
-The last comments of a deck say place and identifier of each fault. Its sentence stands in sentences.txt, which
+The table says place and identifier of each fault. Its sentence stands in sentences.txt, which
 ``python -m tests.faulty_decks --update`` writes anew.
 """
 
@@ -12,19 +12,12 @@ from pathlib import Path
 
 from mbla.assembly import build_assembly
 from mbla.deck import read_deck
-from mbla.errors import DeckError, Fault
+from mbla.errors import DeckError
 from mbla.model import build_model
+from tests.faulty_files import told_of, write_faulty_files
 
-FOLDER = Path(__file__).parent / "invalid_decks"
-DECKS = sorted(FOLDER.glob("*.yaml"))
-SENTENCES = FOLDER / "sentences.txt"
-MARK = "# expect: "
-
-
-def expected_of(path: Path) -> list[str]:
-    """Place and identifier of each fault, ``16:42  [out-of-bounds]``."""
-    lines = path.read_text(encoding="utf-8").splitlines()
-    return [line.removeprefix(MARK) for line in lines if line.startswith(MARK)]
+SENTENCES = Path(__file__).parent / "invalid_decks" / "sentences.txt"
+FOLDER, DECKS = write_faulty_files(SENTENCES.parent)
 
 
 @cache
@@ -40,18 +33,9 @@ def refusal_of(path: Path) -> tuple[str, DeckError]:
     raise AssertionError(f"{path.name} is not refused")
 
 
-def place_and_kind(fault: Fault, path: Path) -> str:
-    """A fault as the deck expects it."""
-    return f"{fault.place}  [{fault.identifier}]".removeprefix(f"{path}:")
-
-
 def sentences() -> str:
     """What is said of each deck."""
-    text = []
-    for path in DECKS:
-        lines = [fault.line().removeprefix(f"{path}:") for fault in refusal_of(path)[1].faults]
-        text.append("\n".join([path.stem, *(f"  {line}" for line in lines), ""]))
-    return "\n".join(text)
+    return "\n".join(told_of(path, refusal_of(path)[1].faults) for path in DECKS)
 
 
 if __name__ == "__main__" and sys.argv[1:] == ["--update"]:

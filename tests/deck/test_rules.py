@@ -21,6 +21,7 @@ from mbla.deck.sections.analysis import AnalysisSection
 from mbla.errors import DeckError, Finding
 from tests import line
 from tests.deck.decks import BLOCK, changed, write
+from tests.faulty_decks import DECKS
 from tests.line import line_of
 
 WALL = (
@@ -82,7 +83,7 @@ def test_every_rule_is_broken_by_a_faulty_deck(monkeypatch: pytest.MonkeyPatch) 
 
     for section, checks in of_decks.items():
         monkeypatch.setitem(RULES, section, [recorded(check) for check in checks])
-    for path in (Path(__file__).parents[1] / "invalid_decks").glob("deck_*.yaml"):
+    for path in (path for path in DECKS if path.stem.startswith("deck_")):
         with pytest.raises(DeckError):
             read_deck(path)
     assert {check for checks in of_decks.values() for check in checks} == broken

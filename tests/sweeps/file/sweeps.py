@@ -9,7 +9,6 @@ from mbla.sweeps.file.read import read_sweep
 from tests.deck.decks import write
 
 FOLDER = Path(__file__).parents[2] / "invalid_sweeps"
-INVALID = sorted(FOLDER.glob("sweep_*.yaml"))
 ARCH = (FOLDER / "deck.yaml").read_text(encoding="utf-8")
 
 GOOD = """mbla_sweep: 1

@@ -1,4 +1,7 @@
-"""Every file of tests/invalid_sweeps/sweep_*.yaml is refused with exactly the messages that its last comments say."""
+"""Every sweep file of tests/invalid_sweeps is refused at the place and for the reason that its table says.
+
+The sentences are in one file, and may be mended there: ``python -m tests.faulty_sweeps --update``.
+"""
 
 from __future__ import annotations
 
@@ -6,24 +9,20 @@ from pathlib import Path
 
 import pytest
 
-from mbla.errors import DeckError
-from mbla.sweeps.base import read_base
-from mbla.sweeps.file.read import read_sweep
-from tests.sweeps.file.sweeps import INVALID
-
-MARK = "# expect: "
+from tests.faulty_files import place_and_kind
+from tests.faulty_sweeps import SENTENCES, SWEEPS, refusal_of, sentences
 
 
 def test_there_are_enough() -> None:
-    assert len(INVALID) >= 100
+    assert len(SWEEPS) >= 100
 
 
-@pytest.mark.parametrize("path", INVALID, ids=lambda path: path.stem)
-def test_messages(path: Path) -> None:
-    lines = path.read_text(encoding="utf-8").splitlines()
-    expected = [line.removeprefix(MARK) for line in lines if line.startswith(MARK)]
-    with pytest.raises(DeckError) as caught:
-        read_base(read_sweep(path))
-    found = [fault.line().removeprefix(f"{path}:").removeprefix(f"{path.parent}/") for fault in caught.value.faults]
-    assert found == expected
+@pytest.mark.parametrize("path", SWEEPS, ids=lambda path: path.stem)
+def test_places_and_reasons(path: Path) -> None:
+    expected = SWEEPS[path].faults
     assert expected, "a faulty sweep file says what is expected of it"
+    assert tuple(place_and_kind(fault, path) for fault in refusal_of(path).faults) == expected
+
+
+def test_sentences() -> None:
+    assert sentences() == SENTENCES.read_text(encoding="utf-8")

@@ -11,7 +11,7 @@ from mbla.errors import DeckError
 from mbla.sweeps.file.content import MAX_POINTS, design_parts, is_random
 from mbla.sweeps.file.read import Sweep, read_sweep
 from tests.deck.decks import BLOCK, write
-from tests.sweeps.file.sweeps import ALL_WAYS, GOOD
+from tests.sweeps.file.sweeps import ALL_WAYS, GOOD, base_of
 
 
 def sweep_of(folder: Path, text: str) -> Sweep:
@@ -66,6 +66,12 @@ def test_a_sweep_file_is_no_deck(tmp_path: Path) -> None:
     with pytest.raises(DeckError) as caught:
         read_deck(path)
     assert str(caught.value) == f"{path}:1:1 mbla_sweep = 1: this is a sweep file, not a deck: mbla sweep runs it"
+
+
+def test_a_sweep_file_is_no_deck_of_another(tmp_path: Path) -> None:
+    with pytest.raises(DeckError) as caught:
+        base_of(tmp_path, GOOD, deck=GOOD)
+    assert str(caught.value).startswith(f"{tmp_path}/deck.yaml:1:1 mbla_sweep = 1: this is a sweep file, not a deck")
 
 
 def test_a_deck_is_no_sweep_file(tmp_path: Path) -> None:

@@ -11,6 +11,8 @@ import ezdxf
 import meshio
 import numpy as np
 
+from tests.faulty_decks import FOLDER as FAULTY_DECKS
+from tests.faulty_sweeps import FOLDER as FAULTY_SWEEPS
 from tests.line import BLOCK, WALL
 from tests.trust.geometry.formats import Files, compas, inp_surface, obj, ply_text, stl_binary, stl_text
 from tests.trust.geometry.stones import Stone
@@ -102,8 +104,8 @@ def small_files(folder: Path, largest: int = 1500) -> list[bytes]:
 
 def seeds() -> list[tuple[str, bytes]]:
     """Kind and content of files to begin with: samples, the decks of the program, and those that it refuses."""
-    sweeps = [*small_files(ROOT / "decks" / "sweeps"), *small_files(ROOT / "tests" / "invalid_sweeps")]
-    decks = [*small_files(ROOT / "decks"), *small_files(ROOT / "tests" / "invalid_decks")]
+    sweeps = [*small_files(ROOT / "decks" / "sweeps"), *small_files(FAULTY_SWEEPS)]
+    decks = [*small_files(ROOT / "decks"), *small_files(FAULTY_DECKS)]
     return [
         ("deck", BLOCK.encode()),
         ("deck", WALL.encode()),

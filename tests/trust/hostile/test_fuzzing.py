@@ -14,7 +14,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from tests.decks.folder import ROOT
+from tests.faulty_decks import FOLDER as FAULTY_DECKS
 from tests.trust.counts import record_counts
 from tests.trust.hostile import subject
 from tests.trust.hostile.samples import seeds, small_files
@@ -24,7 +24,7 @@ FILES = 100_000
 CORPUS = sorted((Path(__file__).parent / "corpus").iterdir())
 SEEDS = seeds()
 DECKS = [seed for seed in SEEDS if seed[0] == "deck"]
-REFUSED = set(small_files(ROOT / "tests" / "invalid_decks"))
+REFUSED = set(small_files(FAULTY_DECKS))
 VALID = [seed for seed in DECKS if seed[1] not in REFUSED]
 SWEEPS = [seed for seed in SEEDS if seed[0] == "sweep"]
 GEOMETRY = [seed for seed in SEEDS if seed[0] not in ("deck", "sweep")]

@@ -15,18 +15,15 @@ from pathlib import Path
 import pytest
 
 import mbla
-from mbla.errors import DeckError
 from mbla.results.explanations import explanations, find_explanations
 from mbla.results.failures import lines_of
-from mbla.sweeps.base import read_base
-from mbla.sweeps.file.read import read_sweep
-from tests.faulty_decks import DECKS, SENTENCES, expected_of, refusal_of, sentences
+from tests import faulty_decks, faulty_sweeps
+from tests.faulty_decks import DECKS
+from tests.faulty_sweeps import SWEEPS
 from tests.trust.counts import record_counts
 from tests.trust.messages.cases import CASES
 from tests.trust.messages.source import NOT_PRINTED, PRINTED_BY, identifiers, sites
 
-TESTS = Path(__file__).parents[2]
-SWEEPS = sorted((TESTS / "invalid_sweeps").glob("sweep_*.yaml"))
 TOLD = Path(__file__).with_name("sentences.txt")
 BRACKETED = re.compile(r"  \[([a-z]+(?:-[a-z0-9]+)*)\]$")
 LONG = frozenset(
@@ -54,8 +51,8 @@ def identifier_of(line: str) -> str:
 
 def exercised() -> Iterator[str]:
     """Identifiers of all lines that tests expect."""
-    for path in (*DECKS, *SWEEPS):
-        yield from map(identifier_of, expected_of(path))
+    for file in (*DECKS.values(), *SWEEPS.values()):
+        yield from map(identifier_of, file.faults)
     yield from (case.identifier for case in CASES.values())
 
 
@@ -91,13 +88,6 @@ def check_case(
     assert found == expected()[name]
     assert identifier_of(lines[-1]) == CASES[name].identifier
     return lines
-
-
-def refusal_of_sweep(path: Path) -> DeckError:
-    """The error of a faulty sweep file."""
-    with pytest.raises(DeckError) as caught:
-        read_base(read_sweep(path))
-    return caught.value
 
 
 def test_no_error_is_made_without_an_identifier() -> None:
@@ -147,14 +137,10 @@ def test_every_error_as_it_is_printed(
         folder = tmp_path / name
         folder.mkdir()
         lines.append("\n".join(check_case(name, folder, monkeypatch, capsys, update)))
-    assert sentences() == SENTENCES.read_text(encoding="utf-8")
-    lines += [fault.line() for path in DECKS for fault in refusal_of(path)[1].faults]
-    for path in SWEEPS:
-        found = [fault.line() for fault in refusal_of_sweep(path).faults]
-        assert [line.removeprefix(f"{path}:").removeprefix(f"{path.parent}/") for line in found] == expected_of(path), (
-            path.name
-        )
-        lines += found
+    for faulty in (faulty_decks, faulty_sweeps):
+        assert faulty.sentences() == faulty.SENTENCES.read_text(encoding="utf-8")
+    refusals = [*(faulty_decks.refusal_of(path)[1] for path in DECKS), *map(faulty_sweeps.refusal_of, SWEEPS)]
+    lines += [fault.line() for error in refusals for fault in error.faults]
     for line in lines:
         assert identifier_of(line) in [entry.identifier for entry in find_explanations(line)], line
     kinds = {identifier_of(line) for line in lines}
