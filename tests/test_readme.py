@@ -153,11 +153,22 @@ def test_commands_of_the_readme_are_those_of_the_program() -> None:
 PAGES = [ROOT / "README.md", *(ROOT / folder for folder in ("decks", "schemas", "tests"))]
 
 
+def anchors(page: Path) -> set[str]:
+    """Names of the headings of a page, as links have them."""
+    headings = re.findall(r"^#+ (.*)$", page.read_text(encoding="utf-8"), flags=re.MULTILINE)
+    return {re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-") for heading in headings}
+
+
 @pytest.mark.parametrize("page", [PAGES[0], *(page for folder in PAGES[1:] for page in sorted(folder.rglob("*.md")))])
-def test_links_and_pictures_exist(page: Path) -> None:
-    for target in re.findall(r"\]\(([^)#]+)(?:#[^)]*)?\)", page.read_text(encoding="utf-8")):
+def test_links_pictures_and_modules_exist(page: Path) -> None:
+    text = page.read_text(encoding="utf-8")
+    for target, heading in re.findall(r"\]\(([^)#]*)#?([^)]*)\)", text):
         if not target.startswith("http"):
-            assert (page.parent / target).exists(), target
+            linked = page.parent / target if target else page
+            assert linked.exists(), target
+            assert not heading or heading in anchors(linked), f"{target}#{heading}"
+    for module in re.findall(r"`(mbla/[\w/.]+)`", text):
+        assert (ROOT / module).exists(), module
 
 
 def test_the_readme_is_short() -> None:

@@ -5,9 +5,8 @@
 - ``auto``: ``mbla`` from ``OWN_FROM`` unknowns, programs with a quadratic cost only with a fast factorisation, those
   with conditions on interfaces not first; else ``clarabel``
 
-Measured side by side (schemas/analysis.md): below that size either takes milliseconds and
-clarabel, compiled, has the smaller overhead; above it the condensed method is faster and its bounds are closer to each
-other.
+Measured side by side (tests/performance/accuracy.md): below that size either takes milliseconds and clarabel, compiled,
+has the smaller overhead; above it the condensed method is faster and its bounds are closer to each other.
 """
 
 from __future__ import annotations
