@@ -70,7 +70,7 @@ def add_sweep_plot(commands: Any) -> None:
     """``mbla sweep-plot``."""
     command = commands.add_parser(
         "sweep-plot",
-        help="pictures of a sweep: curves, maps, scatter, distribution, tornado, polar (extra mbla[pictures])",
+        help="pictures of a sweep: curves, maps, distributions (extra mbla[pictures])",
         description="Pictures of the table of a sweep, sweep_KIND_RESULT.png and so on; those that suit the table "
         "unless kinds are named. Points without a verified value are marked as such. Earlier pictures of the same "
         "names are replaced.",
@@ -88,7 +88,7 @@ def add_sweep_plot(commands: Any) -> None:
     command.add_argument(
         "--kind",
         metavar="KIND",
-        help="curve, map, polar, scatter, distribution, tornado, several with commas, or all that fit the table",
+        help="curve, map, distribution, several with commas, or all that fit the table",
     )
     command.add_argument(
         "--result", metavar="NAME", help="column, or key path for all load cases (default: load_factor)"
@@ -96,7 +96,7 @@ def add_sweep_plot(commands: Any) -> None:
     command.add_argument(
         "--by",
         metavar="PARAMETER",
-        help="parameter along the axis of curves and maps, of the curves of a distribution, or the only one of scatter",
+        help="parameter along the axis of curves and maps, or of the curves of a distribution",
     )
     add_page_options(command)
 

@@ -112,18 +112,6 @@ UNSURE = (Status.NOT_VERIFIED, Status.ITERATION_LIMIT, Status.TIME_LIMIT, Status
 """states in which a value is not verified, whatever the outcome of the other load cases"""
 
 
-def told_apart(values: FloatArray) -> FloatArray:
-    """The values, with one value for those that differ by less than ``ALIKE`` of the largest size among them.
-
-    values : of any shape, which the result has too
-    """
-    if not values.size:
-        return values
-    ascending = np.sort(values, axis=None)
-    begins = np.diff(ascending, prepend=-np.inf) > ALIKE * np.abs(ascending).max()
-    return np.asarray(ascending[begins][np.searchsorted(ascending[begins], values, side="right") - 1])
-
-
 def numbers_of(column: SweepColumn, values: Values) -> FloatArray:
     """A numeric column as floats (n_points,), nan where there is none."""
     return np.ma.filled(np.ma.asarray(values).astype(float), np.nan)

@@ -196,10 +196,10 @@ class SweepPicture:
 
 SWEEPS = (
     SweepPicture("arch_friction_thickness", None),
-    SweepPicture("house_directions", ("--kind", "polar")),
+    SweepPicture("house_directions", ("--kind", "curve")),
     SweepPicture("wall_opening", ("--kind", "curve", "--result", "in_plane.load_factor", "--by", "width")),
     SweepPicture("rubble_wall", ("--kind", "distribution")),
-    SweepPicture("dome_workmanship", ("--kind", "scatter")),
+    SweepPicture("dome_workmanship", ("--kind", "distribution")),
 )
 
 

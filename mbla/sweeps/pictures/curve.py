@@ -23,7 +23,7 @@ def refusal(view: View) -> str:
     """Why there can be no curves, or nothing."""
     if view.text_refused:
         return view.text_refused
-    return "" if view.axes else "no parameter has two values of a grid; scatter shows samples"
+    return "" if view.axes else "no parameter has two values of a grid; distribution shows samples"
 
 
 def draw(path: Path, view: View, options: PictureOptions) -> None:

@@ -104,7 +104,7 @@ def draw(path: Path, view: View, options: PictureOptions) -> None:
 def _groups(view: View) -> list[tuple[str, BoolArray]]:
     """Points of each value of the chosen parameter, or of each combination of those that are not sampled."""
     table = view.table
-    axes = grid_axes(table) if table.samples else ()
+    axes = grid_axes(table) if view.sampled else ()
     if view.by and not is_sampled(table, column_by_name(table, view.by).dimension):
         axes = (axis_of(table, column_by_name(table, view.by)),)
     groups: dict[str, list[int]] = {}

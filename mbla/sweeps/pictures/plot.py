@@ -13,7 +13,7 @@ from typing import Any, Protocol
 from mbla.errors import FileError, UsageError
 from mbla.results.pictures.options import PictureOptions, format_of, is_single, page_options, parse_kinds
 from mbla.results.pictures.page import PictureFile, write_pictures
-from mbla.sweeps.pictures import curve, distribution, map, polar, scatter, tornado
+from mbla.sweeps.pictures import curve, distribution, map
 from mbla.sweeps.pictures.view import View, chosen_results, view_of
 from mbla.sweeps.tables.sweep_json import JSON, read_sweep_table
 from mbla.sweeps.tables.sweep_table import SweepTable
@@ -29,15 +29,11 @@ class Kind(Protocol):
         """Write it; raises as ``open_diagrams`` does."""
 
 
-KINDS: dict[str, Kind] = {
-    "curve": curve, "map": map, "polar": polar, "scatter": scatter, "distribution": distribution, "tornado": tornado,
-}  # fmt: skip
+KINDS: dict[str, Kind] = {"curve": curve, "map": map, "distribution": distribution}
 """by name, in the order in which they are made"""
 USUAL: dict[str, Callable[[View], bool]] = {
     "map": lambda view: min(len(axis.levels) for axis in view.axes[:2]) > 2,  # else it shows no more than curves
-    "scatter": lambda view: bool(view.sampled),
-    "distribution": lambda view: bool(view.table.samples),
-    "tornado": lambda view: len(tornado.ordered(view) if view.sampled else view.axes) > 1,
+    "distribution": lambda view: view.sampled or not view.axes,
 }
 """which of those that fit a table are drawn of it without being asked for; kinds that are not here always are"""
 

@@ -139,18 +139,17 @@ class View:
         rest = [axis for axis in grid_axes(self.table) if axis.column.dimension != chosen.dimension]
         return (axis_of(self.table, chosen), *rest)
 
-    @cached_property
-    def sampled(self) -> tuple[SweepColumn, ...]:
-        """Parameters that are sampled."""
-        return tuple(column for column in design_columns(self.table) if is_sampled(self.table, column.dimension))
+    @property
+    def sampled(self) -> bool:
+        """Whether a part of the design is a sample."""
+        return any(is_sampled(self.table, dimension.name) for dimension in self.table.dimensions)
 
     @property
     def text_refused(self) -> str:
         """Why there can be no picture of numbers where the result is text, and what shows it; or nothing."""
         if not self.answers.categories:
             return ""
-        shown = "map and scatter show it" if len(self.axes) > 1 else "scatter shows it"
-        return f"the result is text; {shown}"
+        return f"the result is text{'; map shows it' * (len(self.axes) > 1)}"
 
 
 def view_of(table: SweepTable, result: SweepColumn, by: str = "", demands: tuple[float, ...] = ()) -> View:

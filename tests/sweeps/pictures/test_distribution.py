@@ -72,7 +72,7 @@ def over_heights(heights: int, solve: Any) -> SweepTable:
         (over_heights(13, lambda height, mu: mu), {},
          "13 combinations of the other parameters; 12 have room, choose one with --by"),
         (over_heights(2, lambda height, mu: mu), {"result": "mechanism.class"},
-         "the result is text; scatter shows it"),
+         "the result is text"),
     ],
 )  # fmt: skip
 def test_what_is_not_drawn_is_refused_with_the_reason(swept: SweepTable, changes: Any, told: str) -> None:

@@ -4,12 +4,11 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import pytest
 
 from mbla.sweeps.answers import Answer
 from mbla.sweeps.pictures.sheet import MARKS
 from tests.sweeps.pictures.drawing import draw, lines_with, words
-from tests.sweeps.pictures.hand_made import FAILED, FALLEN, UNBOUNDED, Row, grid, sample, table_of
+from tests.sweeps.pictures.hand_made import FAILED, FALLEN, UNBOUNDED, Row, grid, sample
 
 
 def arch(mu: float, thickness: float) -> Row | float:
@@ -61,27 +60,6 @@ def test_cells_of_a_map_are_the_table(tmp_path: Path, figures: list[Any]) -> Non
     assert at == {Answer.NO_EQUILIBRIUM: [(0.2, 0.1)], Answer.UNBOUNDED: [(0.8, 0.3)], Answer.FAILED: [(0.4, 0.2)]}
 
 
-def test_scatter_shows_each_point_once_in_each_diagram(tmp_path: Path, figures: list[Any]) -> None:
-    mu, t = np.linspace(0.2, 1.0, 21), np.linspace(3.0, 4.0, 21)[::-1]
-    table = sample({"mu": list(mu), "thickness": list(t)}, lambda mu, thickness: FALLEN if mu == 0.2 else mu)
-    draw(table, tmp_path, "scatter")
-    for axes, x, told in zip(figures[0].axes, (mu, t), ("+1.00", "-1.00"), strict=True):
-        (points,) = [line for line in axes.lines if len(line.get_xdata()) == 20]
-        assert points.get_xdata().tolist() == x[1:].tolist()
-        assert points.get_ydata().tolist() == mu[1:].tolist()
-        assert axes.get_title() == f"rank correlation {told}"
-        assert lines_with(axes, "v")[0].get_data()[1].tolist() == [0.0]
-
-
-def test_a_tornado_is_sorted(tmp_path: Path, figures: list[Any]) -> None:
-    table = grid({"weak": [0.0, 1.0], "strong": [0.0, 1.0]}, lambda weak, strong: weak - 5 * strong)
-    draw(table, tmp_path, "tornado")
-    axes = figures[0].axes[0]
-    bars = [bar.get_width() for bar in axes.patches]
-    assert [text.get_text().split(",")[0] for text in axes.get_yticklabels()] == ["strong", "weak"]
-    assert bars == [-5.0, 1.0]
-
-
 def test_demands_stand_in_the_distribution(tmp_path: Path, figures: list[Any]) -> None:
     table = sample({"mu": list(np.linspace(0, 1, 30))}, lambda mu: mu)
     draw(table, tmp_path, "distribution", demands={"load_factor": (0.25,)})
@@ -89,26 +67,11 @@ def test_demands_stand_in_the_distribution(tmp_path: Path, figures: list[Any]) -
         assert [0.25, 0.25] in [list(line.get_xdata()) for line in axes.lines]
 
 
-def test_a_polar_curve_is_closed_and_broken_where_it_fails(tmp_path: Path, figures: list[Any]) -> None:
+def test_a_curve_over_the_azimuth_is_broken_where_it_fails(tmp_path: Path, figures: list[Any]) -> None:
     turns = list(range(0, 360, 45))
-    draw(grid({"azimuth": turns}, lambda azimuth: FAILED if azimuth == 90 else 1.0 + azimuth / 360), tmp_path, "polar")
+    draw(grid({"azimuth": turns}, lambda azimuth: FAILED if azimuth == 90 else 1.0 + azimuth / 360), tmp_path, "curve")
     (axes,) = figures[0].axes
     (curve,) = [line for line in axes.lines if line.get_linestyle() == "-"]
-    angle, radius = curve.get_data()
-    assert np.degrees(angle).tolist() == pytest.approx([*turns, 360])
-    assert radius[0] == radius[-1] == 1.0
-    assert np.isnan(radius[2])
-    assert np.degrees(lines_with(axes, "x")[0].get_xdata()).tolist() == pytest.approx([90.0])
-
-
-def test_directions_of_a_sphere_have_the_colours_of_their_values(tmp_path: Path, figures: list[Any]) -> None:
-    turns = [(0.0, 0.0), (120.0, 0.0), (240.0, 0.0), (0.0, 89.0), (0.0, -89.0)]
-    rows = [{"azimuth": azimuth, "elevation": elevation} for azimuth, elevation in turns]
-    table = table_of(rows, lambda azimuth, elevation: FALLEN if elevation < 0 else azimuth, [("to", 5)],
-                     [(i,) for i in range(5)], {"azimuth": "to", "elevation": "to"})  # fmt: skip
-    draw(table, tmp_path, "polar")
-    axes = figures[0].axes[0]
-    (dots,) = [each for each in axes.collections if each.get_array() is not None]
-    assert dots.get_array().tolist() == [0.0, 120.0, 240.0, 0.0]
-    assert dots.get_offsets().tolist() == [list(turn) for turn in turns[:4]]
-    assert lines_with(axes, "v")[0].get_data()[1].tolist() == [-89.0]  # towards the nadir nothing stands
+    assert curve.get_xdata().tolist() == turns
+    assert np.isnan(curve.get_ydata()).tolist() == [angle == 90 for angle in turns]
+    assert lines_with(axes, "x")[0].get_xdata().tolist() == [90.0]

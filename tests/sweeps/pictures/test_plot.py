@@ -13,7 +13,7 @@ from mbla.sweeps.fragility import fragility_of
 from mbla.sweeps.pictures.plot import SweepPictures, pictures_of
 from mbla.sweeps.tables.sweep_table import SweepTable
 from mbla.sweeps.tables.write_tables import Conclusion, TableFiles, write_tables
-from tests.sweeps.pictures.hand_made import FAILED, grid, sample
+from tests.sweeps.pictures.hand_made import FAILED, grid, sample, sphere
 from tests.sweeps.tables.synthetic import record, table
 
 pytest.importorskip("matplotlib")
@@ -36,12 +36,12 @@ def drawn(points: int = 20) -> SweepTable:
 
 
 def test_kinds_suit_the_table() -> None:
-    assert names(plane()) == [
-        "curve_load_factor", "map_load_factor", "tornado_load_factor", "map_mechanism.class",
-    ]  # fmt: skip
-    assert names(drawn()) == ["scatter_load_factor", "distribution_load_factor", "tornado_load_factor"]
+    assert names(plane()) == ["curve_load_factor", "map_load_factor", "map_mechanism.class"]
+    assert names(drawn()) == ["distribution_load_factor"]
+    over = [(0.0, 0.0), (120.0, 0.0), (240.0, 0.0), (0.0, 89.0)]
+    assert names(sphere(over, {}, lambda to_azimuth, to_elevation: to_azimuth)) == ["distribution_load_factor"]
     turned = grid({"azimuth": [0.0, 90.0, 180.0, 270.0]}, lambda azimuth: 1.0)
-    assert names(turned) == ["curve_load_factor", "polar_load_factor"]
+    assert names(turned) == ["curve_load_factor"]
     assert names(grid({"mu": [0.1, 0.2, 0.3]}, lambda mu: FAILED)) == ["curve_load_factor"]  # seen to have failed
 
 
@@ -50,14 +50,11 @@ def test_kinds_suit_the_table() -> None:
     [
         (drawn(), {"kinds": ("curve",)}, "--kind curve of load_factor: no parameter has two values of a grid"),
         (drawn(), {"kinds": ("map",)}, "needs two parameters of a grid"),
-        (drawn(), {"kinds": ("polar",)}, "no parameter is a direction"),
-        (drawn(5), {"kinds": ("tornado",)}, "5 points with a verified value; correlations of samples need 10"),
-        (plane(), {"kinds": ("curve",), "result": "mechanism.class"}, "the result is text; map and scatter show it"),
-        (plane(), {"kinds": ("tornado",), "result": "mechanism.class"}, "the result is text; map and scatter show it"),
+        (plane(), {"kinds": ("curve",), "result": "mechanism.class"}, "the result is text; map shows it"),
         (plane(), {"result": "load_facter"}, "did you mean load_factor"),
         (plane(), {"by": "thicknes"}, "did you mean thickness"),
-        (grid({"mu": [0.5]}, lambda mu: mu), {"kinds": ("scatter",)}, "no parameter has two values"),
-        (grid({"mu": [0.5]}, lambda mu: mu), {}, "no kind of picture suits load_factor"),
+        (grid({"mu": [0.5]}, lambda mu: mu), {"kinds": ("curve",)}, "no parameter has two values"),
+        (grid({"mu": [0.5]}, lambda mu: FAILED), {}, "no kind of picture suits load_factor"),
         (grid({"mu": [0.5, 0.6]}, lambda mu: FAILED), {"kinds": ("distribution",)}, "no point has a verified value"),
     ],
 )  # fmt: skip
@@ -89,7 +86,8 @@ def test_the_command_writes_into_the_folder_of_the_sweep_and_replaces(
 @pytest.mark.parametrize(
     ("options", "status", "told"),
     [
-        (["--kind", "bars"], 2, "--kind bars: there are curve, map"),
+        (["--kind", "bars"], 2, "--kind bars: there are curve, map, distribution"),
+        (["--kind", "polar"], 2, "--kind polar: there are curve, map, distribution"),
         (["--kind", "map"], 2, "needs two parameters"),
         (["--dpi", "5"], 2, "20 to 1200"),
         (["--size", "big"], 2, "width x height"),

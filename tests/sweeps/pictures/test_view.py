@@ -25,7 +25,7 @@ from tests.sweeps.pictures.hand_made import FAILED, FALLEN, UNBOUNDED, Row, grid
 def test_the_map_of_classes_is_made_of_itself_alone_where_no_result_is_named() -> None:
     table = grid({"mu": [1.0, 2.0, 3.0], "thickness": [1.0, 2.0, 3.0]}, lambda mu, thickness: mu)
     named = pictures_of(table, SweepPictures(result="load_factor"))
-    assert [picture.name for picture in named] == ["curve_load_factor", "map_load_factor", "tornado_load_factor"]
+    assert [picture.name for picture in named] == ["curve_load_factor", "map_load_factor"]
     usual = pictures_of(table, SweepPictures())
     assert [picture.name for picture in usual] == [*(picture.name for picture in named), "map_mechanism.class"]
 
