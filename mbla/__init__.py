@@ -2,10 +2,10 @@
 
 The program on one line; each word is a folder, and its main type carries the folder's name::
 
-    deck ──> model ──> contacts ──> assembly ──> program ──> solution ──> results
-    text     blocks,    interfaces,  rigid        equilibrium,  load factor,  .h5 .vtu
-             supports,  contact      bodies,      yield cones,  forces,       listing,
-             loads      points       ties         objective     mechanism     pictures
+    deck ──> model ──> contacts ──> assembly ──> program ──> solution ──> results ──> codes
+    text     blocks,    interfaces,  rigid        equilibrium,  load factor,  .h5 .vtu    capacity
+             supports,  contact      bodies,      yield cones,  forces,       listing,    over
+             loads      points       ties         objective     mechanism     pictures    demand
 
 A stage imports only from the stages to its left; ``run.py`` is the table of contents.
 """

@@ -9,13 +9,13 @@ from pathlib import Path
 from typing import TypeVar
 
 from mbla.assembly import Assembly, build_assembly
+from mbla.codes.assess import assessed
 from mbla.deck import Deck, read_deck
 from mbla.errors import UsageError
 from mbla.model import build_model
 from mbla.model.model import LoadCase, select_cases
 from mbla.process.run_options import RunOptions as RunOptions
 from mbla.process.stopwatch import Stopwatch, timing
-from mbla.results.assessment.assessment import with_remarks
 from mbla.results.collapse.ties import brittle_remarks
 from mbla.results.files import OutputFolder
 from mbla.results.partial import Partial
@@ -255,6 +255,6 @@ def _pushed(
 
 
 def _finished(assembly: Assembly, case: CaseResult) -> CaseResult:
-    """A load case with the remarks that are made last."""
+    """A load case with the remarks that are made last, and what a code says of it."""
     remarks = (*case.solution.remarks, *brittle_remarks(assembly.model.of_case(case.load_case), case.solution))
-    return with_remarks(assembly, replace(case, solution=replace(case.solution, remarks=remarks)))
+    return assessed(assembly, replace(case, solution=replace(case.solution, remarks=remarks)))

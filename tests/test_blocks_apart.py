@@ -8,8 +8,8 @@ import pytest
 
 from mbla.results.listing.summary import summary_lines
 from mbla.results.results import Results
-from mbla.results.verify import verify_file
 from mbla.run import RunOptions, run
+from mbla.verify import verify_file
 
 DECK = """\
 mbla: 1

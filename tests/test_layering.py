@@ -13,8 +13,8 @@ import pytest
 import mbla
 
 PACKAGE = Path(mbla.__file__).parent
-STAGES = ("deck", "model", "contacts", "assembly", "program", "solution", "results", "sweeps")
-WHOLE_LINE = ("api", "run")
+STAGES = ("deck", "model", "contacts", "assembly", "program", "solution", "results", "codes", "sweeps")
+WHOLE_LINE = ("api", "run", "verify")
 """modules beside the stages that call all of them: only what runs decks again and again stands to their right"""
 SHARED = ("arrays", "errors", "process")
 DOORS = {

@@ -22,8 +22,8 @@ from mbla.process.signals import Terminated
 from mbla.results import partial
 from mbla.results.hdf5.result_file import read_results_hdf5, write_results_hdf5
 from mbla.results.results import CaseResult
-from mbla.results.verify import verify_file
 from mbla.solution.solution import Status
+from mbla.verify import verify_file
 from tests.line import BLOCK, WALL
 
 CASES = "load_cases:\n  push: {live: [{acceleration: [1, 0, 0]}]}\n  pull: {live: [{acceleration: [-2, 0, 0]}]}\n"

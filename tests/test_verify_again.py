@@ -17,10 +17,10 @@ from mbla.results.record.json_record import verification_json
 from mbla.results.results import CaseResult, Results
 from mbla.results.verification.asked import Found, held_against_deck
 from mbla.results.verification.history import held_against_paths, paths_again
-from mbla.results.verify import rebuilt, recomputed, verify_file
 from mbla.run import run
 from mbla.solution.flow.settings import ratios_beside, second_ratio
 from mbla.solution.solution import PathByStiffness, Status
+from mbla.verify import rebuilt, recomputed, verify_file
 from tests.decks.folder import BENCHMARKS
 from tests.line import BLOCK
 from tests.results.changed_files import written

@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from mbla.results.verify import verify_file
 from mbla.solution.solution import Status
+from mbla.verify import verify_file
 from tests.analytic.test_ties import SLENDER
 from tests.line import BLOCK, WALL
 from tests.results.changed_files import changing, image_of_run

@@ -13,8 +13,8 @@ from mbla.errors import FileError
 from mbla.process.run_options import RunOptions
 from mbla.results.hdf5.layout import MOST
 from mbla.results.record.quantity import UNVERIFIED
-from mbla.results.verify import verify_file
 from mbla.run import run
+from mbla.verify import verify_file
 from tests.decks.folder import BENCHMARKS
 from tests.line import BLOCK, WALL
 from tests.results.changed_files import change, changing, image_of_run, with_case, written

@@ -15,9 +15,9 @@ from mbla.results.listing.history_words import NOT_FOLLOWED
 from mbla.results.listing.listing import verification_lines
 from mbla.results.record.json_record import verification_json
 from mbla.results.results import Results
-from mbla.results.verify import rebuilt, recomputed, verify_file
 from mbla.run import run
 from mbla.solution.pushover.record import PushedRows, RowPoints
+from mbla.verify import rebuilt, recomputed, verify_file
 from tests.line import BLOCK
 from tests.results.changed_files import written
 from tests.results.listing.test_pushover import TABLE

@@ -18,10 +18,10 @@ from mbla.results.outcome import unproved_words
 from mbla.results.record.json_record import verification_json
 from mbla.results.record.quantity import UNVERIFIED
 from mbla.results.results import Results
-from mbla.results.verify import verify_file
 from mbla.run import run
 from mbla.solution.solution import Standing, StandingResult, Status
 from mbla.solution.verification.verify import FALL_NOT_SHOWN, FALL_SHOWN, NOT_SHOWN, NOTHING_ACTS, SHOWN
+from mbla.verify import verify_file
 from tests.decks.folder import BENCHMARKS
 from tests.line import BLOCK
 from tests.results.changed_files import with_case, written

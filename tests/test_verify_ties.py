@@ -10,7 +10,7 @@ import pytest
 from mbla.assembly.rigid_bodies import rigid_bodies
 from mbla.errors import FileError
 from mbla.results.collapse.rigid_parts import rigid_parts
-from mbla.results.verify import verify_file
+from mbla.verify import verify_file
 from tests.analytic.test_ties import SLENDER
 from tests.line import HEAD
 from tests.results.changed_files import changing, image_of_run

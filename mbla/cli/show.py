@@ -60,7 +60,7 @@ def verify(options: argparse.Namespace) -> int:
         from mbla.results.listing.listing import verification_lines
         from mbla.results.record.json_record import verification_json
         from mbla.results.record.json_values import json_line
-        from mbla.results.verify import verify_file
+        from mbla.verify import verify_file
 
     results, agreed = verify_file(options.result, anew=options.again)
     if options.json:

@@ -11,6 +11,7 @@ from mbla.assembly.assembly import Assembly
 from mbla.contacts.contacts import Contacts
 from mbla.errors import Message, Notice
 from mbla.model.model import LoadCase, Model
+from mbla.results.assessment import Assessment
 from mbla.solution.further.further import Further
 from mbla.solution.solution import Checks, Solution, Status
 
@@ -40,12 +41,16 @@ class DeckRecord:
 
 @dataclass(frozen=True)
 class CaseResult:
-    """One load case with its solution, verification and final status (never better than verification allows)."""
+    """One load case with its solution, verification and final status (never better than verification allows).
+
+    assessment : what a code says of it; None where none is asked
+    """
 
     load_case: LoadCase
     solution: Solution
     checks: Checks
     status: Status
+    assessment: Assessment | None = None
 
     def with_further(self, further: Further, remarks: Sequence[Message]) -> CaseResult:
         """The same case with further results beside its answer, and what these have to say."""

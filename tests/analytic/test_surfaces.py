@@ -15,8 +15,8 @@ from mbla.model import build_model
 from mbla.process.run_options import RunOptions
 from mbla.results.hdf5.result_file import read_results_hdf5
 from mbla.results.results import Results
-from mbla.results.verify import verify_file
 from mbla.run import run
+from mbla.verify import verify_file
 from tests.contacts.structures import any_rotation
 from tests.line import factor_of, line_of
 

@@ -21,6 +21,7 @@ from mbla.model.model import Ground, Joint, LoadCase, Model, Objective, Pushing,
 from mbla.model.solids.blocks import Blocks, labels_of
 from mbla.model.ties.ties import Ties
 from mbla.program.reductions import ProgramSize, ReductionStep, StepState
+from mbla.results.assessment import Assessment, Figure
 from mbla.results.results import CaseResult, DeckRecord, Results
 from mbla.solution.further.further import Further
 from mbla.solution.further.geometric_safety.geometric_safety import GeometricSafety
@@ -51,6 +52,13 @@ G = 9.81
 SHEET = np.array([[9.0, 0, 0], [9.0, 1, 0], [9.0, 1, 3], [9.0, 0, 3]])[::-1]
 """a surface at x = 9, seen from smaller x"""
 ASSESSED = AssessmentSection.model_validate({"spectra": {"SLV": {"table": [[0.0, 0.2], [2.0, 0.1]]}}})
+VERDICT = Assessment(
+    "NTC 2018 with Circolare 7/2019",
+    (
+        Figure("", "a_0*", 0.7, "m/s2", "[C8.7.1.8]", "alpha_0 g/(e* FC): it begins"),
+        Figure("SLV", "zeta", 0.9, "", "C8.7.1.2.1.7", "q a_g,0/a_g, by alpha_0 alone"),
+    ),
+)
 
 
 def cuboids(lower: Any, upper: Any, groups: Any, densities: Any = 1.0) -> Blocks:
@@ -256,10 +264,9 @@ def full_results() -> Results:
     model = full_model(results.model)
     full = replace(case, load_case=model.load_cases[0], solution=full_solution(case.solution), checks=checks)
     deck = replace(results.deck, files=(("stones.obj", b"v 0 0 0\n"), ("meshes/none.bin", b""), ("x.csv", b"\xff\x00")))
-    cases = (full, results.cases[1])
-    return replace(
-        results, deck=deck, assembly=Assembly(model, contacts), cases=cases, complete=False, not_done=("slide",)
-    )
+    assembly = Assembly(model, contacts)
+    cases = (replace(full, assessment=VERDICT), results.cases[1])
+    return replace(results, deck=deck, assembly=assembly, cases=cases, complete=False, not_done=("slide",))
 
 
 def full_solution(solution: Solution) -> Solution:

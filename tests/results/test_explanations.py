@@ -79,7 +79,7 @@ def of_solutions() -> set[str]:
     return {
         value.value
         for path, tree in sources().items()
-        if any(path.is_relative_to(PACKAGE / each) for each in ("solution", "results/assessment", "results/collapse"))
+        if any(path.is_relative_to(PACKAGE / each) for each in ("solution", "codes", "results/collapse"))
         for node in ast.walk(tree)
         if isinstance(node, ast.Call) and getattr(node.func, "id", "") == "Message"
         for value in ast.walk(node.args[0])

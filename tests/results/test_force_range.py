@@ -19,10 +19,10 @@ from mbla.results.pictures.options import PictureOptions
 from mbla.results.pictures.scene import scene_of
 from mbla.results.record.json_record import results_json
 from mbla.results.results import Results
-from mbla.results.verify import verify_file
 from mbla.run import RunOptions, run
 from mbla.solution.solution import Status
 from mbla.sweeps.results import result_fault, result_places, values_of
+from mbla.verify import verify_file
 
 DECK = """
 mbla: 1

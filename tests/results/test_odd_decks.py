@@ -26,7 +26,7 @@ from mbla.results.report.report import report_html
 from mbla.results.series import detailed_cases
 from mbla.results.tables.formats import table_csv
 from mbla.results.tables.tables import export_results, tables_of
-from mbla.results.verify import verify_file
+from mbla.verify import verify_file
 
 HEAD = """\
 mbla: 1

@@ -14,9 +14,9 @@ from mbla.errors import FileError
 from mbla.model import build_model
 from mbla.results.collapse.collapse import collapse_of
 from mbla.results.hdf5.result_file import read_results_hdf5, write_results_hdf5
-from mbla.results.verify import verify_file
 from mbla.run import RunOptions, run
 from mbla.solution.solution import Status
+from mbla.verify import verify_file
 from tests.line import case_of, factor_of
 from tests.results.changed_files import changing
 

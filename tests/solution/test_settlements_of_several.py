@@ -9,9 +9,9 @@ import pytest
 
 from mbla.process.run_options import RunOptions
 from mbla.results.results import CaseResult
-from mbla.results.verify import verify_file
 from mbla.run import run
 from mbla.solution.solution import Status
+from mbla.verify import verify_file
 from tests.line import HEAD, case_of, cases_of
 
 WEIGHT = 2000 * 2 * 0.5 * 0.3 * 9.81

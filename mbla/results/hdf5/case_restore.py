@@ -12,6 +12,7 @@ from mbla.errors import Message
 from mbla.model.model import LoadCase
 from mbla.program.reductions import ProgramSize, ReductionStep, StepState
 from mbla.program.reductions.steps import REDUCTIONS
+from mbla.results.assessment import NAMES, REMARKS, Assessment, Figure
 from mbla.results.hdf5.content import HISTORY, MOTIONS
 from mbla.results.record.quantity import ANSWERS, stored
 from mbla.results.results import CaseResult
@@ -65,7 +66,17 @@ def case_from(load_case: LoadCase, get: dict[str, Any]) -> CaseResult:
         ),
     }
     checks = held(Checks, "cases/*", get) | {"failures": _messages(get, "failures")}
-    return CaseResult(load_case, Solution(**own, **answers), Checks(**checks), Status(get["status"]))
+    solution = Solution(**own, **answers)
+    assessment = _assessment(load_case, get, solution)
+    return CaseResult(load_case, solution, Checks(**checks), Status(get["status"]), assessment)
+
+
+def _assessment(load_case: LoadCase, get: dict[str, Any], solution: Solution) -> Assessment | None:
+    """What a code said; its remarks are among those on the solution."""
+    if load_case.assessment is None or "assessment/symbol" not in get:
+        return None
+    remarks = tuple(each for each in solution.remarks if each.identifier in REMARKS)
+    return Assessment(NAMES[load_case.assessment.code], _records(Figure, get, "assessment"), remarks)
 
 
 ENERGIES = ("live_work", "friction", "tie_work", "crushing", "potential")

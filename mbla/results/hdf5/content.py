@@ -17,7 +17,7 @@ from mbla.model.model import Joint, LoadCase, Model, Objective, Pushing, Settlem
 from mbla.model.solids.blocks import Blocks
 from mbla.model.ties.ties import Ties
 from mbla.program.reductions import ProgramSize
-from mbla.results.assessment.assessment import Figure, assessment_of
+from mbla.results.assessment import Figure
 from mbla.results.collapse.collapse import collapse_of
 from mbla.results.hdf5.layout import FILETYPE, VERSION, Content, fields_of
 from mbla.results.record.columns import names_of, numbers_of
@@ -245,9 +245,8 @@ def case_content(assembly: Assembly, case: CaseResult) -> Content:
     }
     for group, kind in HISTORY.items():
         content |= _columns(group, kind, getattr(solution, group))
-    assessment = assessment_of(assembly, case)
-    if assessment is not None:
-        content |= _columns("assessment", Figure, assessment.figures)
+    if case.assessment is not None:
+        content |= _columns("assessment", Figure, case.assessment.figures)
     settlement = case.load_case.settlement
     if settlement is not None and solution.mechanics is not None:
         content["reaction"] = settlement.reaction(solution.mechanics.load_factor)

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from mbla.assembly.assembly import Assembly
 from mbla.deck.sections.assessment import LIMIT_STATES
-from mbla.results.assessment.assessment import NAMES, OLD, assessment_of
+from mbla.results.assessment import NAMES, OLD
 from mbla.results.listing.text import full_sentence, number, sentence, table
 from mbla.results.results import CaseResult
 
@@ -20,9 +19,9 @@ OF_2019 = (
 OF_2009 = "Displacements by Circolare 617/2009 are left out: their articles were not found in a text to be read."
 
 
-def code_verdict(assembly: Assembly, case: CaseResult) -> str:
+def code_verdict(case: CaseResult) -> str:
     """What a code says at every limit state, in a line: met or not, capacity over demand; empty where none is asked."""
-    found, asked = assessment_of(assembly, case), case.load_case.assessment
+    found, asked = case.assessment, case.load_case.assessment
     if found is None or asked is None:
         return ""
     said = {name: f"{name} no verdict" for name in LIMIT_STATES if getattr(asked.spectra, name) is not None}
@@ -32,9 +31,9 @@ def code_verdict(assembly: Assembly, case: CaseResult) -> str:
     return f"{found.code}: {'; '.join(said.values())}"
 
 
-def assessment_words(assembly: Assembly, case: CaseResult) -> str:
+def assessment_words(case: CaseResult) -> str:
     """Capacity over demand at every limit state; empty where no assessment is asked for."""
-    found, asked = assessment_of(assembly, case), case.load_case.assessment
+    found, asked = case.assessment, case.load_case.assessment
     if found is None or asked is None:
         return ""
     said = {name: "no verdict" for name in LIMIT_STATES if getattr(asked.spectra, name) is not None}
@@ -44,16 +43,16 @@ def assessment_words(assembly: Assembly, case: CaseResult) -> str:
     return " ".join([f"{found.code}, capacity over demand: {verdicts}.", *map(full_sentence, found.remarks)])
 
 
-def assessment_lines(assembly: Assembly, case: CaseResult) -> list[str]:
+def assessment_lines(case: CaseResult) -> list[str]:
     """The same, every figure with its article, and what is not in it."""
-    found = assessment_of(assembly, case)
+    found = case.assessment
     if found is None:
         return []
     rows = [
         [each.limit_state, each.symbol, number(each.value), each.unit, each.article, each.words]
         for each in found.figures
     ]
-    lines = ["", *sentence(assessment_words(assembly, case))]
+    lines = ["", *sentence(assessment_words(case))]
     if not rows:
         return lines
     lines += ["", *table(["", "symbol", "value", "unit", "article", ""], rows, left=6), ""]

@@ -70,7 +70,7 @@ def case_sections(assembly: Assembly, case: CaseResult) -> list[Section]:
     solution, load_case, held, contacts = case.solution, case.load_case, assembly.model, assembly.contacts
     model, mechanics, how = held.of_case(load_case), solution.mechanics, description_of(assembly, case)
     summary = "" if how is None or mechanics is None else mechanism_summary(model, how.collapse, how.failure)
-    code, sentences = code_verdict(assembly, case), [] if how is None else how.sentences
+    code, sentences = code_verdict(case), [] if how is None else how.sentences
     sections = [Section("Verdict", _verdict_lines(model, case, summary, code, sentences))]
     if how is not None:
         sections.append(Section("Mechanism", mechanism_lines(assembly, load_case, how.failure)))
@@ -92,7 +92,7 @@ def case_sections(assembly: Assembly, case: CaseResult) -> list[Section]:
         Section("Pushover", curve_lines(model, case)),
         Section("Geometric safety", geometric_safety_lines(case)),
         Section("Sensitivity", sensitivity_lines(case)),
-        Section("Assessment", assessment_lines(assembly, case)),
+        Section("Assessment", assessment_lines(case)),
         Section("Solver programs", program_lines(solution)),
     ]
     return [section for section in sections if any(section.lines)]
@@ -177,7 +177,7 @@ def _recap(results: Results) -> list[str]:
     lines = heading("Summary")
     for case in detailed_cases(results.cases):
         lines += entry(case.load_case.name, verdict(results.model, case))
-        code = code_verdict(results.assembly, case)
+        code = code_verdict(case)
         lines += sentence(code, "    ") if code else []
     lines += [line for series in series_of(results.cases) for line in sentence(worst_words(results.model, series))]
     for found in force_ranges_of(results.cases):

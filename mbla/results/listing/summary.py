@@ -63,7 +63,7 @@ def summary_lines(results: Results) -> list[str]:
         f"{counted(len(contacts.points), 'contact point')}, weight {number(model.total_weight)} {model.units.force}"
     )
     detailed = detailed_cases(results.cases)
-    lines = [counts, *_table(results.model, detailed), *_codes(results, detailed)]
+    lines = [counts, *_table(results.model, detailed), *_codes(detailed)]
     for case in detailed:
         lines += _in_words(results, case)
     for series in series_of(results.cases):
@@ -88,11 +88,11 @@ def _table(model: Model, cases: Sequence[CaseResult]) -> list[str]:
     return table(["load case", "status", *heads], rows, left=2)
 
 
-def _codes(results: Results, cases: Sequence[CaseResult]) -> list[str]:
+def _codes(cases: Sequence[CaseResult]) -> list[str]:
     """What codes say, a line for each case that asks for it."""
     lines = []
     for case in cases:
-        says = code_verdict(results.assembly, case)
+        says = code_verdict(case)
         lines += sentence(f"{case.load_case.name}: {says}") if says else []
     return lines
 
@@ -107,7 +107,7 @@ def _in_words(results: Results, case: CaseResult) -> list[str]:
         text += "" if found is None else f": {mechanism_summary(model, how.collapse, how.failure)}"
         details = how.sentences[:2] if found is None else how.sentences[1:2]
     lines = sentence(text)
-    assessed = assessment_words(results.assembly, case)
+    assessed = assessment_words(case)
     said = (least_words(model, case), torsion_words(model, case), *details, *reasons(case), bound_words(model, case))
     for words in (*said, curve_words(model, case) or no_curve_words(case), assessed):
         lines += sentence(words, DETAIL)

@@ -10,7 +10,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
 from mbla.model.model import Model
-from mbla.results.assessment.assessment import Assessment, assessment_of
+from mbla.results.assessment import Assessment
 from mbla.results.collapse.collapse import Collapse, collapse_of, failure_of
 from mbla.results.collapse.thrust import Thrust, thrust_of
 from mbla.results.listing.assessment_words import code_verdict
@@ -148,7 +148,7 @@ class Case:
 
         ``figures`` has every figure on the way with its article, ``remarks`` what stands against them.
         """
-        return assessment_of(self.results.assembly, self.record)
+        return self.record.assessment
 
     @property
     def thrust(self) -> Thrust | None:
@@ -181,7 +181,7 @@ class Case:
         if found is not None and collapse is not None:
             failure = failure_of(self.model, self.results.contacts, collapse, found)
             how = f": {mechanism_summary(self.model, collapse, failure)}"
-        code = code_verdict(self.results.assembly, self.record)
+        code = code_verdict(self.record)
         return f"{self.name}: {self.verdict}{how}{f'. {code}' if code else ''}"
 
     def picture(self, path: str | Path | None = None, *, kind: str = "mechanism", format: str | None = None) -> Picture:

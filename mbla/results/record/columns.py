@@ -15,7 +15,6 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.deck.sections.assessment import LIMIT_STATES
-from mbla.results.assessment.assessment import assessment_of
 from mbla.results.collapse.interface_modes import InterfaceMode, relative_motion
 from mbla.results.collapse.mechanics import global_forces
 from mbla.results.collapse.rigid_parts import moving_blocks, moving_share
@@ -81,7 +80,7 @@ def _of_parts(of: Callable[..., Any]) -> Callable[[Scene, str], Any]:
 
 def _assessed(scene: Scene, name: str) -> float | None:
     """Capacity over demand at the limit state that a name ends with, the least where it names none."""
-    found = None if scene.case is None else assessment_of(scene.assembly, scene.case)
+    found = None if scene.case is None else scene.case.assessment
     ratios = {} if found is None else {name: each.value for name, each in found.ratios.items()}
     state = name.removeprefix("assessment_ratio").removeprefix("_")
     return ratios.get(state) if state else min(ratios.values(), default=None)

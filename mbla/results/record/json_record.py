@@ -15,7 +15,6 @@ from mbla.arrays import FloatArray
 from mbla.contacts.glue import solid_sizes
 from mbla.errors import Notice
 from mbla.model.model import Model
-from mbla.results.assessment.assessment import assessment_of
 from mbla.results.collapse.mechanics import reactions_of
 from mbla.results.collapse.ties import tie_rows
 from mbla.results.findings import remarks_of_run
@@ -179,7 +178,7 @@ def case_json(scene: Scene) -> dict[str, Any]:
         "curve_last_error": as_json(solution.further.pushover.curve_last_error),
         "sensitivity": as_json(solution.further.sensitivity),
         "geometric_safety": _geometric_safety(solution),
-        "assessment": as_json(assessment_of(scene.assembly, case)),
+        "assessment": as_json(case.assessment),
         "mechanism": None
         if mechanics is None
         else mechanism_json(scene.assembly, case.load_case, mechanics, dimension_of((case,))),

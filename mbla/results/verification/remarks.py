@@ -13,7 +13,6 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from mbla.assembly.assembly import Assembly
 from mbla.deck import Deck
 from mbla.errors import Message
-from mbla.results.assessment.assessment import assessment_of
 from mbla.results.collapse.ties import brittle_remarks
 from mbla.results.explanations import explanations
 from mbla.results.findings import FOUND_AGAIN
@@ -57,7 +56,7 @@ NUMBER = re.compile(r"(-?\d+(?:\.\d+)?(?:e[+-]?\d+)?)")
 def remarks_found_again(deck: Deck, assembly: Assembly, case: CaseResult) -> tuple[Message, ...]:
     """The remarks that a run must make of a load case, in its order.
 
-    case : with checks, status and curve recomputed
+    case : with checks, status, curve and assessment recomputed
     """
     load_case, solution = case.load_case, case.solution
     model, contacts = assembly.model.of_case(load_case), assembly.contacts
@@ -78,8 +77,7 @@ def remarks_found_again(deck: Deck, assembly: Assembly, case: CaseResult) -> tup
         against = why_no_geometric_safety(model, contacts, load_case, deck.analysis)
         found += [no_geometric_safety(against)] if against else []
     found += brittle_remarks(model, solution)
-    assessment = assessment_of(assembly, case)
-    return (*found, *(() if assessment is None else assessment.remarks))
+    return (*found, *(() if case.assessment is None else case.assessment.remarks))
 
 
 def _at_collapse(solution: Solution) -> bool:

@@ -14,6 +14,7 @@ import numpy as np
 import pytest
 
 from mbla.assembly.assembly import Assembly
+from mbla.codes.assess import assessment_of
 from mbla.errors import Message
 from mbla.model.model import Settlement, Tilt
 from mbla.results.listing.history_words import path_words
@@ -140,7 +141,9 @@ def texts() -> Iterator[tuple[str, list[str]]]:
 
 def case_text(made: CaseResult) -> list[str]:
     """Sections of a case that say something else for it, and its summary."""
-    sections = case_sections(Assembly(MODEL, RESULTS.contacts), made)
+    assembly = Assembly(MODEL, RESULTS.contacts)
+    made = replace(made, assessment=assessment_of(assembly, made))
+    sections = case_sections(assembly, made)
     lines = [line for each in sections if each.title in SHOWN for line in each.lines]
     return [*lines, "summary:", *summary_lines(replace(RESULTS, cases=(made,)))[2:]]
 

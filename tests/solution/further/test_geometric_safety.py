@@ -16,11 +16,11 @@ from mbla.results.hdf5.result_file import read_results_hdf5, write_results_hdf5
 from mbla.results.listing.geometric_safety import geometric_safety_lines
 from mbla.results.outcome import case_notices
 from mbla.results.results import CaseResult
-from mbla.results.verify import verify_file
 from mbla.solution.further.further import Further
 from mbla.solution.further.geometric_safety.geometric_safety import GeometricSafety
 from mbla.solution.solution import Status
 from mbla.solution.verification.geometric_safety import proved
+from mbla.verify import verify_file
 from tests.analytic.test_least_thickness import deck_text
 from tests.decks.folder import ROOT
 from tests.line import BLOCK, case_of, cases_of

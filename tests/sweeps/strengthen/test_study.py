@@ -14,10 +14,10 @@ from mbla.deck import read_deck
 from mbla.results.hdf5.result_file import read_results_hdf5
 from mbla.results.movable_deck import movable_deck
 from mbla.results.provenance import deck_record
-from mbla.results.verify import verify_file
 from mbla.sweeps.strengthen import study
 from mbla.sweeps.strengthen.ceiling import GREATEST, greatest_capacities, shortfall
 from mbla.sweeps.strengthen.question import question_of
+from mbla.verify import verify_file
 from tests.analytic.test_strengthening import ALONE, ROD
 from tests.analytic.test_ties import WEIGHT
 

@@ -19,13 +19,13 @@ from mbla.results.exit_status import exit_code
 from mbla.results.findings import FOUND_AGAIN
 from mbla.results.hdf5.result_file import write_results_hdf5
 from mbla.results.results import CaseResult, Results
-from mbla.results.verify import rebuilt, recomputed
 from mbla.run import run
 from mbla.solution.further.further import Further
 from mbla.solution.pushover.pushed import CurveEnd
 from mbla.solution.pushover.pushover import NOT_PUSHED, Pushover
 from mbla.solution.pushover.record import PushedRows, RowPoints
 from mbla.solution.solution import Mechanics, Solution
+from mbla.verify import rebuilt, recomputed
 from tests.decks.folder import PATHS
 from tests.line import HEAD
 

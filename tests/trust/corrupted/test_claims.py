@@ -11,7 +11,7 @@ import pytest
 
 from mbla.errors import FileError
 from mbla.results.results import Results
-from mbla.results.verify import verify_file
+from mbla.verify import verify_file
 from tests.trust.corrupted.claims import DECKS, FORGERIES, sound_files, written_anew
 from tests.trust.counts import record_counts
 

@@ -15,7 +15,7 @@ from typing import Any
 import pytest
 
 from mbla.errors import FileError
-from mbla.results.verify import verify_file
+from mbla.verify import verify_file
 from tests.trust.corrupted.files import FORGED, claims_changed, content_of, is_proof, write_decks
 from tests.trust.corrupted.spoiling import DAMAGES, MALFORMED, damaged, forge, malform
 from tests.trust.counts import record_counts
@@ -26,7 +26,7 @@ DAMAGED_FILES, MALFORMED_FILES, FORGERIES = 210, 160, 300
 SMALL = ("beam_on_three_supports", "plank_in_clamp", "incline_too_steep")
 """decks whose results are damaged and malformed; plane ones, as drawing in space takes seconds"""
 IMPORTED = (
-    *("mbla.results.diff.comparison", "mbla.results.diff.words", "mbla.results.exit_status", "mbla.results.verify"),
+    *("mbla.results.diff.comparison", "mbla.results.diff.words", "mbla.results.exit_status", "mbla.verify"),
     *("mbla.results.hdf5.result_file", "mbla.results.listing.listing", "mbla.results.tables.tables"),
 )
 DRAWING = (

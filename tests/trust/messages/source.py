@@ -63,9 +63,7 @@ def _builders(classes: list[ast.ClassDef]) -> set[str]:
 
 
 def _makes(path: Path, call: ast.Call, names: set[str]) -> bool:
-    remarks = any(
-        path.is_relative_to(PACKAGE / place) for place in ("solution", "results/assessment", "results/collapse")
-    )
+    remarks = any(path.is_relative_to(PACKAGE / place) for place in ("solution", "codes", "results/collapse"))
     return _name(call.func) in names and not (remarks and _name(call.func) == "Message")
 
 

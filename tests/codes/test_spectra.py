@@ -6,22 +6,19 @@ import math
 
 import pytest
 
-from mbla.deck.sections.assessment import EurocodeSpectrum, NtcSpectrum, SpectrumSection
-from mbla.results.assessment.spectra import (
+from mbla.codes import en1998, ntc2018
+from mbla.codes.assess import spectrum_of
+from mbla.codes.ntc2018 import (
     Floor,
-    Spectrum,
-    damping_factor,
-    en_1998,
     floor_acceleration,
     floor_amplification,
-    ground_acceleration,
-    ntc_2018,
     participation,
     peak_floor_acceleration,
-    spectrum_of,
 )
+from mbla.codes.spectrum import Spectrum, damping_factor, ground_acceleration
+from mbla.deck.sections.assessment import EurocodeSpectrum, NtcSpectrum, SpectrumSection
 
-SITE = ntc_2018(0.2, 2.4, 0.35, "B")
+SITE = ntc2018.spectrum(0.2, 2.4, 0.35, "B")
 FLOOR = Floor(0.3, 5.0, participation(2), 0.75)
 
 
@@ -34,11 +31,11 @@ def test_corners_of_the_worked_example() -> None:
     ("soil", "a_g", "factor"), [("A", 0.3, 1.0), ("C", 0.3, 1.268), ("C", 0.1, 1.5), ("D", 0.3, 1.32), ("E", 0.4, 1.0)]
 )
 def test_soil_factor_depends_on_the_acceleration_within_its_limits(soil: str, a_g: float, factor: float) -> None:
-    flat, ridge = (ntc_2018(a_g, 2.4, 0.3, soil, site) for site in ("T1", "T4"))
+    flat, ridge = (ntc2018.spectrum(a_g, 2.4, 0.3, soil, site) for site in ("T1", "T4"))
     assert pytest.approx([factor, 1.4 * factor]) == [flat.S, ridge.S]
 
 
-@pytest.mark.parametrize("spectrum", [SITE, en_1998(0.2, 1, "C"), en_1998(0.1, 2, "D")])
+@pytest.mark.parametrize("spectrum", [SITE, en1998.spectrum(0.2, 1, "C"), en1998.spectrum(0.1, 2, "D")])
 @pytest.mark.parametrize("damping", [5.0, 8.0, 10.0])
 def test_branches_meet_and_have_their_laws(spectrum: Spectrum, damping: float) -> None:
     T_B, T_C, T_D = spectrum.T_B, spectrum.T_C, spectrum.T_D
@@ -57,7 +54,7 @@ def test_branches_meet_and_have_their_laws(spectrum: Spectrum, damping: float) -
 
 
 def test_rows_of_the_eurocode_table() -> None:
-    one, two = en_1998(0.2, 1, "D"), en_1998(0.2, 2, "C")
+    one, two = en1998.spectrum(0.2, 1, "D"), en1998.spectrum(0.2, 2, "C")
     assert (one.S, one.T_B, one.T_C, one.T_D) == (1.35, 0.2, 0.8, 2.0)
     assert (two.S, two.T_B, two.T_C, two.T_D) == (1.5, 0.1, 0.25, 1.2)
 
@@ -82,8 +79,8 @@ def test_spectra_of_the_deck_take_another_ground_acceleration() -> None:
     ntc = SpectrumSection(ntc_2018=NtcSpectrum(a_g=0.2, F_0=2.4, T_C_star=0.35, soil="B"))
     eurocode = SpectrumSection(en_1998=EurocodeSpectrum(a_g=0.2, type=1, soil="B"))
     assert spectrum_of(ntc) == SITE
-    assert spectrum_of(ntc, 0.4) == ntc_2018(0.4, 2.4, 0.35, "B")  # with the S and the T_D of 0.4 g
-    assert spectrum_of(eurocode, 0.1) == en_1998(0.1, 1, "B")
+    assert spectrum_of(ntc, 0.4) == ntc2018.spectrum(0.4, 2.4, 0.35, "B")  # with the S and the T_D of 0.4 g
+    assert spectrum_of(eurocode, 0.1) == en1998.spectrum(0.1, 1, "B")
 
 
 # --- At a height ----------------------------------------------------------------------------------------------------

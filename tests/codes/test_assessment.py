@@ -11,10 +11,11 @@ import pytest
 
 import mbla
 from mbla.assembly.assembly import Assembly
-from mbla.results.assessment.assessment import Assessment, assessment_of
-from mbla.results.verify import verify_file
+from mbla.codes.assess import assessment_of
+from mbla.results.assessment import Assessment
+from mbla.verify import verify_file
 
-FACADE = Path(__file__).parents[3] / "decks" / "tutorials" / "assessed_facade.yaml"
+FACADE = Path(__file__).parents[2] / "decks" / "tutorials" / "assessed_facade.yaml"
 TEXT = FACADE.read_text(encoding="utf-8")
 BOX, CASE = 'max: ["=t", 1, "=h"]', "load_cases.outwards."
 COURSES = TEXT.replace(BOX, 'max: ["=t", 1, "=h/8"], repeat: {count: 8, translate: [0, 0, "=h/8"]}')

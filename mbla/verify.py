@@ -19,6 +19,7 @@ from pathlib import Path
 import numpy as np
 
 from mbla.assembly import Assembly, build_assembly
+from mbla.codes.assess import assessment_of
 from mbla.deck import Deck
 from mbla.deck.deck import sha256_of
 from mbla.errors import DeckError, FileError, Notice
@@ -146,7 +147,8 @@ def _recomputed_case(results: Results, case: CaseResult, deck: Deck | None) -> C
         load_case = replace(load_case, tilt=replace(tilt, upright=upright, angle=angle))
     checks = verify(assembly, load_case, solution)
     further = _further_again(results, deck, CaseResult(load_case, solution, checks, case.status))
-    return CaseResult(load_case, solution.with_further(further), checks, verified_status(solution, checks))
+    again = CaseResult(load_case, solution.with_further(further), checks, verified_status(solution, checks))
+    return replace(again, assessment=assessment_of(assembly, again))
 
 
 def _further_again(results: Results, deck: Deck | None, case: CaseResult) -> Further:

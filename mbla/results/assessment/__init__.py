@@ -1,1 +1,0 @@
-"""What codes ask of a mechanism: spectra, articles, and the figures of a load case."""
