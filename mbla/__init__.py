@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING
 __version__ = "0.1.0"
 
 if TYPE_CHECKING:
+    from mbla.api import assess as assess
     from mbla.api import read_results as read_results
     from mbla.api import run as run
     from mbla.errors import DeckError as DeckError
@@ -34,6 +35,7 @@ if TYPE_CHECKING:
 _HOMES = {
     "run": "mbla.api",
     "read_results": "mbla.api",
+    "assess": "mbla.api",
     "sweep": "mbla.sweeps.api",
     "read_sweep": "mbla.sweeps.api",
     "Run": "mbla.results.notebook.run",

@@ -10,6 +10,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from mbla.codes.again import assessed_again
 from mbla.deck import read_deck, read_deck_text
 from mbla.deck.deck import Deck
 from mbla.errors import FileError, LimitError, UsageError
@@ -92,6 +93,18 @@ def run(
 def read_results(path: str | os.PathLike[str]) -> Run:
     """The run of a result file (``.h5``); FileError if it cannot be read or is no result."""
     return Run(read_results_hdf5(Path(path)))
+
+
+def assess(result: str | os.PathLike[str] | Run, *, set: Mapping[str, object] | Sequence[str] = ()) -> Run:
+    """A result with what codes say of it; nothing is solved, and no file is changed.
+
+    result : a result file (``.h5``), or a run
+    set    : changes of ``load_cases.NAME.assessment``, and of parameters that they alone use, as ``run`` takes them
+
+    Raises DeckError and UsageError where the deck does not allow that, FileError as ``read_results``.
+    """
+    run = result if isinstance(result, Run) else read_results(result)
+    return Run(assessed_again(run.records, overrides_of(set)))
 
 
 def _read(deck: str | os.PathLike[str], overrides: Sequence[str]) -> Deck:

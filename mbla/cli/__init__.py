@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import NoReturn
 
 from mbla import __version__
-from mbla.cli import decks, export, reference, show, strengthen, study_commands, sweep_commands
+from mbla.cli import assess, decks, export, reference, show, strengthen, study_commands, sweep_commands
 from mbla.cli.terminal import drop_output, prepare_streams
 from mbla.cli.terminal import failed as failed
 from mbla.errors import FileError, UsageError
@@ -25,6 +25,7 @@ COMMANDS = (
     decks.add_check,
     show.add_show,
     show.add_verify,
+    assess.add_assess,
     export.add_plot,
     export.add_report,
     export.add_export,

@@ -28,6 +28,7 @@ FILE = {
     "sweep": "sweep",
     "show": "result",
     "verify": "result",
+    "assess": "result",
 }
 """what a command with one file is about, as its object names it"""
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from mbla.deck.sections.assessment import LIMIT_STATES
 from mbla.results.assessment import NAMES, OLD
-from mbla.results.listing.text import full_sentence, number, sentence, table
-from mbla.results.results import CaseResult
+from mbla.results.listing.text import full_sentence, heading, number, sentence, table
+from mbla.results.results import CaseResult, Results
 
 MODELLED = (
     "Modelled: the mechanism as one that begins at alpha_0, and the curve under actions that are taken to last until "
@@ -41,6 +41,15 @@ def assessment_words(case: CaseResult) -> str:
         said[name] = f"{number(ratio.value)} ({ratio.words}), {'met' if ratio.value >= 1.0 else 'NOT MET'}"
     verdicts = "; ".join(f"{name} {words}" for name, words in said.items())
     return " ".join([f"{found.code}, capacity over demand: {verdicts}.", *map(full_sentence, found.remarks)])
+
+
+def all_assessment_lines(results: Results) -> list[str]:
+    """Of every load case that has an assessment, under its name."""
+    lines = [results.model.title or results.deck.name]
+    for case in results.cases:
+        if case.assessment is not None:
+            lines += [*heading(f"Load case {case.load_case.name}"), *assessment_lines(case)]
+    return lines
 
 
 def assessment_lines(case: CaseResult) -> list[str]:
