@@ -158,7 +158,6 @@ def add_export(commands: Any) -> None:
         action="store_true",
         help="with --macro-blocks: parts of the mechanism of associative flow, whatever the flow rule of the deck",
     )
-    command.add_argument("--vtkhdf", action="store_true", help=argparse.SUPPRESS)
     command.add_argument(
         "-o", "--output", type=place, metavar="DIR", help="folder of the files (default: that of the result)"
     )
@@ -176,7 +175,7 @@ def add_export(commands: Any) -> None:
 def export(options: argparse.Namespace) -> int:
     """Write tables, or decks of macro-blocks; their paths are printed.
 
-    Raises UsageError for options that do not go together, and for ``--vtkhdf``, which is no more.
+    Raises UsageError for options that do not go together.
     """
     with loading():
         from mbla.results.hdf5.result_file import read_results_hdf5
@@ -184,10 +183,6 @@ def export(options: argparse.Namespace) -> int:
 
     results = read_results_hdf5(options.result)
     folder = options.output or options.result.parent
-    if options.vtkhdf:
-        raise UsageError(
-            "command-line", "export: --vtkhdf is no more: ParaView reads the VTU files that every run writes"
-        )
     if options.macro_blocks:
         return _export_macro_blocks(options, results, folder)
     if options.associative:

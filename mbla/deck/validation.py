@@ -7,9 +7,7 @@ from typing import Any, TypeVar
 
 from pydantic import BaseModel, ValidationError
 
-from mbla.deck.content import DeckContent
 from mbla.deck.fields import allowed_keys, description
-from mbla.deck.gone import gone_key, gone_value
 from mbla.deck.quantities import PATTERNS
 from mbla.deck.section import MOST_WRONG, WRONG, TooManyWrongError, WrongValues, built
 from mbla.deck.suggestions import did_you_mean, listed, unknown
@@ -159,14 +157,9 @@ def _words(root: type[BaseModel], data: Any, path: KeyPath, error: Any) -> tuple
         meaning = description(root, path)
         return Message("missing-key", "is missing" + (f": {meaning}" if meaning else "")), False
     if kind == "extra_forbidden":
-        gone = gone_key(path) if root is DeckContent else None
-        allowed = allowed_keys(root, path[:-1])
-        return gone or Message("unknown-key", unknown("key", str(path[-1]), allowed)), True
+        return Message("unknown-key", unknown("key", str(path[-1]), allowed_keys(root, path[:-1]))), True
     if kind in ("too_long", "too_short"):
         return Message("wrong-length", _length(context)), False
-    old = gone_value(path, value) if root is DeckContent else None
-    if old is not None:
-        return old, False
     if kind in _TYPES:
         quotes = kind == "string_type" and isinstance(value, (int, float))
         return _TYPES[kind].around(after=": write it in quotes" if quotes else ""), is_key

@@ -94,7 +94,6 @@ def test_the_command_writes_beside_the_result(tmp_path: Path, capsys: pytest.Cap
     assert main(["export", str(path), "--table", "beams", "--force"]) == 2
     assert main(["export", str(path), "--case", "beams", "--force"]) == 2
     assert main(["export", str(tmp_path / "none.h5")]) == 6
-    assert main(["export", str(path), "--vtkhdf"]) == 2
     assert path.exists()
 
 
