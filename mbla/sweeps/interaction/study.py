@@ -245,7 +245,7 @@ INTERACT_RECORD: tuple[Key, ...] = tuple(
         ("axes", "list", "what the two axes of the diagram are, in words"),
         ("closed", "boolean", "the angles go all around"),
         ("least", "object?", "least verified load factor, `load_factor`, and its `angles` in degrees"),
-        ("greatest", "object?", "the greatest, likewise"),
+        ("greatest", "object?", "greatest verified load factor, `load_factor`, and its `angles` in degrees"),
         ("domain", "object?", "what the bounds of associative flow prove together; null where no point has bounds"),
         ("domain.inner", "list", "corners of the convex hull of safe points, factors along the axes"),
         ("domain.outer", "list", "corners of what the half-planes of all mechanisms leave"),
