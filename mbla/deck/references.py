@@ -15,12 +15,10 @@ from typing import Any
 from mbla.deck.kinds import in_order
 from mbla.deck.sections.blocks import ITEM_KINDS
 from mbla.deck.sections.materials import BUILT_IN
+from mbla.deck.sections.selectors import GROUND
 from mbla.deck.suggestions import unknown
 from mbla.deck.text.tree import KeyPath, Tree
 from mbla.errors import Fault, Message
-
-GROUND = "ground"
-"""Name that stands for ground planes in `contacts.overrides`, for what does not move in `ties`."""
 
 
 @dataclass(frozen=True)

@@ -1,10 +1,12 @@
 """The model stage: from a checked deck to blocks, supports and loads as arrays.
 
-Kinds of items are at home below it, and the deck's types are made of these: the stage itself is imported when first
-asked for.
+Kinds of items and loads are at home in it, and the deck's types are made of these: the deck is complete before anything
+here is imported, and the stage itself is imported when first asked for.
 """
 
 from typing import TYPE_CHECKING
+
+import mbla.deck  # noqa: F401  it lists the kinds of this stage, so that it comes first
 
 if TYPE_CHECKING:
     from mbla.model.build import build_model as build_model

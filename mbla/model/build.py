@@ -150,7 +150,7 @@ def structure_of(deck: Deck) -> Structure:
     interfaces = read_interfaces(deck, roster, supports.grounds)
     masses = [point_masses(deck.content.masses, roster, supports.fixed, deck.units)]
     densities = {name: density_of(material, deck.units) for name, material in deck.content.materials.items()}
-    fill = build_fill(deck, densities, roster, supports.fixed)
+    fill = build_fill(deck.content.fill, densities, roster, supports.fixed, deck.units, deck.contacts.tolerance)
     if fill is not None:
         masses.append(fill.parts)
     carried = joined_masses(masses)

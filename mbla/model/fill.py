@@ -18,9 +18,9 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray, summed
-from mbla.deck.deck import Deck
 from mbla.deck.sections.fill import Dispersal, Passive
 from mbla.deck.sections.fill import Fill as FillSection
+from mbla.deck.units import Units
 from mbla.errors import Finding, Notice
 from mbla.model.selectors import Roster, select_blocks
 from mbla.model.solids.blocks import NO_MASSES, Blocks, PointMasses, joined_masses
@@ -115,22 +115,31 @@ class Fill:
     parts: PointMasses = NO_MASSES
 
 
-def build_fill(deck: Deck, densities: Mapping[str, float], roster: Roster, fixed: BoolArray) -> Fill | None:
+def build_fill(
+    sections: Mapping[str, FillSection],
+    densities: Mapping[str, float],
+    roster: Roster,
+    fixed: BoolArray,
+    units: Units,
+    tolerance: float,
+) -> Fill | None:
     """All fills of the deck on its blocks; None where it has none. Refuses fill on nothing, and two fills on one face.
 
+    sections  : fills of the deck by name
     densities : of materials by name
     fixed     : (n_blocks,) blocks that do not move
+    tolerance : greatest gap of contacts, relative to block size
     """
-    if not deck.content.fill:
+    if not sections:
         return None
-    blocks, units = roster.blocks, deck.units
+    blocks = roster.blocks
     found: dict[str, tuple[FillBody, Columns]] = {}
-    for name, section in deck.content.fill.items():
+    for name, section in sections.items():
         chosen = select_blocks(section.on, ("fill", name, "on"), roster)
         if chosen is None:
             continue
         weight = densities[section.material] * units.standard_gravity * units.force_per_mass_acceleration
-        body = _body(name, section, weight, chosen, blocks, deck.contacts.tolerance)
+        body = _body(name, section, weight, chosen, blocks, tolerance)
         own = columns(body, blocks)
         if len(own.rows):
             _refuse_twice(body, own, found, roster)
@@ -143,10 +152,10 @@ def build_fill(deck: Deck, densities: Mapping[str, float], roster: Roster, fixed
             roster.remark(
                 Notice("warning", "mass-on-support", f"the fill {name} on {where} has no effect: nothing of it moves")
             )
-    materials = {name: deck.content.fill[name].material for name in found}
+    materials = {name: sections[name].material for name in found}
     parts = joined_masses(own.parts(densities[materials[name]]) for name, (_, own) in found.items())
     laden = parts.added_to(blocks)
-    words = tuple(_in_words(deck.content.fill[name], *each, deck, blocks) for name, each in found.items())
+    words = tuple(_in_words(sections[name], *each, units, blocks) for name, each in found.items())
     return Fill(
         laden.added_masses, laden.added_mass_points, words, {name: body for name, (body, _) in found.items()}, parts
     )
@@ -162,8 +171,8 @@ def _refuse_twice(body: FillBody, own: Columns, others: Mapping[str, tuple[FillB
             roster.refuse(Finding("fill-on-fill", words, "fill", body.name))
 
 
-def _in_words(section: FillSection, body: FillBody, own: Columns, deck: Deck, blocks: Blocks) -> str:
-    units, under = deck.units, np.unique(own.blocks)
+def _in_words(section: FillSection, body: FillBody, own: Columns, units: Units, blocks: Blocks) -> str:
+    under = np.unique(own.blocks)
     groups = list(dict.fromkeys(blocks.groups[block] for block in under.tolist()))
     where = f"z = {section.level:.6g} {units.length}" if section.level is not None else "its sloping top"
     depths = f"{own.depths.min():.4g} to {own.depths.max():.4g} {units.length} deep"

@@ -9,9 +9,8 @@ from functools import cached_property
 import numpy as np
 
 from mbla.arrays import BoolArray, IntArray
-from mbla.deck.references import GROUND
 from mbla.deck.sections.contacts import ContactOverride
-from mbla.deck.sections.selectors import POSITIONS, Selector, SelectorTerm
+from mbla.deck.sections.selectors import GROUND, POSITIONS, Selector, SelectorTerm
 from mbla.deck.suggestions import unknown
 from mbla.deck.text.tree import KeyPath
 from mbla.errors import Fault, Finding, Message, Notice

@@ -23,8 +23,9 @@ import numpy as np
 
 from mbla.arrays import IntArray
 from mbla.deck.parameter_keys import path_of_key
-from mbla.deck.references import GROUND, groups
+from mbla.deck.references import groups
 from mbla.deck.sections.materials import GLUED
+from mbla.deck.sections.selectors import GROUND
 from mbla.deck.text.tree import KeyPath
 from mbla.errors import UsageError
 from mbla.results.collapse.rigid_parts import part_motions, parts_of_one_twist

@@ -25,6 +25,8 @@ POSITIONS = (
     "copy",
 )
 """Names of positions that items give their blocks, counted from 0; each is a key of selectors."""
+GROUND = "ground"
+"""name that stands for ground planes in `contacts.overrides`, for what does not move in `ties`"""
 ONE_OF = ("group", "box")
 """keys of a selector of which it has at least one"""
 PositionRange: TypeAlias = Annotated[

@@ -10,8 +10,8 @@ from itertools import pairwise
 import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray, starts
-from mbla.deck.references import GROUND
 from mbla.deck.section import given
+from mbla.deck.sections.selectors import GROUND
 from mbla.deck.sections.ties import FORMS, Plate, TieSection
 from mbla.deck.text.tree import KeyPath
 from mbla.errors import Finding

@@ -22,7 +22,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.deck import Deck, read_deck
-from mbla.deck.references import GROUND
+from mbla.deck.sections.selectors import GROUND
 from mbla.model import Model
 from mbla.model.ties.candidates import Candidates
 from mbla.model.ties.ties import OUTSIDE, Ties
