@@ -28,6 +28,7 @@ from mbla.model.model import LoadCase
 from mbla.model.settlement import with_reference
 from mbla.program.assemble import yield_limits
 from mbla.program.build import crushable_interfaces
+from mbla.questions.tilt import chord
 from mbla.results.exit_status import UNEXPECTED, exit_code
 from mbla.results.hdf5.content import content_of
 from mbla.results.hdf5.layout import Content, Value
@@ -49,7 +50,6 @@ from mbla.solution.further.further import Further
 from mbla.solution.further.sensitivity.sensitivity import sensitivity_of
 from mbla.solution.further.sensitivity.slopes import Slope
 from mbla.solution.pushover.curve import begun_by, curve_of
-from mbla.solution.sequence.tilt_circle import chord
 from mbla.solution.settings import settings_for, solver_settings
 from mbla.solution.solution import Solution, Standing, Status
 from mbla.solution.thresholds import SOLVED_RESIDUAL

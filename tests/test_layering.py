@@ -13,7 +13,7 @@ import pytest
 import mbla
 
 PACKAGE = Path(mbla.__file__).parent
-STAGES = ("deck", "model", "contacts", "assembly", "program", "solution", "results", "codes", "sweeps")
+STAGES = ("deck", "questions", "model", "contacts", "assembly", "program", "solution", "results", "codes", "sweeps")
 WHOLE_LINE = ("api", "run", "verify")
 """modules beside the stages that call all of them: only what runs decks again and again stands to their right"""
 SHARED = ("arrays", "errors", "process")
@@ -78,7 +78,6 @@ GIVEN_TO_IT = {
     "solution/further/strengthening/strengthening.py": "what may be added to a structure",
     "solution/further/sensitivity/structures.py": "a structure with another parameter",
     "solution/pushover/pushover.py": "the claim of a pushover",
-    "solution/sequence/tilt_circle.py": "loads of a tilting table",
 }
 """files of program and solution that the verification sees, by itself or through others, and what they are: no matrix,
 no law and no proof of the solver"""

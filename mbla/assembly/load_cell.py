@@ -19,9 +19,10 @@ import numpy as np
 from mbla.arrays import FloatArray
 from mbla.contacts.contacts import Contacts
 from mbla.model.guides import Guides, joined, slide
-from mbla.model.model import LoadCase, Model, Objective
+from mbla.model.model import LoadCase, Model
 from mbla.model.settlement import with_reference
 from mbla.model.solids.blocks import Blocks, join_labels, labels_of
+from mbla.questions.force import Objective
 
 
 @dataclass(frozen=True)

@@ -53,6 +53,13 @@ class Guides:
 NO_GUIDES = Guides(np.zeros(0, dtype=np.int64), np.zeros(0, dtype=np.int64), np.zeros((0, 6, WAYS)))
 
 
+def together(blocks: IntArray, motions: FloatArray) -> Guides:
+    """Blocks, (m,), as one body with one way to move, (m, 6)."""
+    ways = np.zeros((len(blocks), 6, WAYS))
+    ways[:, :, 0] = motions
+    return Guides(blocks, np.zeros(len(blocks), dtype=np.int64), ways)
+
+
 def joined(first: Guides, second: Guides) -> Guides:
     """Both; the blocks of the second leave the first."""
     kept = ~np.isin(first.blocks, second.blocks)

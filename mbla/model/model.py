@@ -12,11 +12,18 @@ from mbla.deck.sections.assessment import AssessmentSection
 from mbla.deck.units import Units
 from mbla.errors import Notice, UsageError
 from mbla.model.fill import Fill
-from mbla.model.guides import NO_GUIDES, Guides, joined
+from mbla.model.guides import NO_GUIDES, Guides, joined, together
 from mbla.model.solids.blocks import Blocks
 from mbla.model.solids.facets import NO_BENT_FACES, BentFaces
 from mbla.model.ties.ties import NO_TIES, Ties
 from mbla.process.imports import import_scipy
+from mbla.questions import Question
+from mbla.questions.angle import Angle
+from mbla.questions.force import Force, Objective
+from mbla.questions.load_factor import LoadFactor
+from mbla.questions.reaction import Reaction, Settlement
+from mbla.questions.tilt import Tilt
+from mbla.questions.travel import Travel, TravelPosition
 
 import_scipy()  # before the stages that compute
 
@@ -51,136 +58,6 @@ class Ground:
     blocks: IntArray | None
     label: str
     outline: FloatArray | None = None
-
-
-@dataclass(frozen=True)
-class TravelPosition:
-    """Where a travelling load, a force or the axles of a vehicle, stands in a load case.
-
-    series    : name of the load case in the deck, which became one for each position
-    number    : of the position, from 1; ``count`` of them
-    points    : (n_axles, 3) m, where each axle stands, the first one first; off the path straight on from its ends
-    distances : (n_axles,) m, of each from the beginning of the path; negative before it
-    forces    : (n_axles, 3) N; those that are off the path do not act
-    blocks    : (n_axles,) that carry them, or most of them; -1 off the path, and where none does
-    spread    : they are shared between blocks, by the width of the axles or by fill
-    """
-
-    series: str
-    number: int
-    count: int
-    points: FloatArray
-    distances: FloatArray
-    forces: FloatArray
-    blocks: IntArray
-    spread: bool = False
-
-    @property
-    def point(self) -> FloatArray:
-        """Where the first axle stands, (3,) m."""
-        return np.asarray(self.points[0])
-
-    @property
-    def distance(self) -> float:
-        """Of the first axle from the beginning of the path, m."""
-        return float(self.distances[0])
-
-    @property
-    def acting(self) -> BoolArray:
-        """Axles that are on the path, (n_axles,)."""
-        return np.asarray(self.blocks >= 0)
-
-
-@dataclass(frozen=True)
-class Tilt:
-    """Loads on a tilting table, fixed + cos(angle) turning + sin(angle) across, all (n_blocks, 6).
-
-    axis    : (3,) unit, about which the table turns by the right hand
-    fixed   : dead loads that keep their direction in the structure, and what of gravity lies along the axis
-    turning : gravity across the axis while the table is level
-    across  : the same after a turn of 90 degrees
-    angle   : of collapse in degrees; nan where it is not known, or where the load factor is its tangent
-    tangent : the live load is ``across`` alone and the load factor the tangent of the angle, which is exact where only
-              the direction of the load counts; else the live load leads from the level table to the angle, and the
-              load factor is 1 there
-    upright : proved multiple of ``across`` that the level table bears, nan where nothing is known
-    """
-
-    axis: FloatArray
-    fixed: FloatArray
-    turning: FloatArray
-    across: FloatArray
-    angle: float = np.nan
-    tangent: bool = True
-    upright: float = np.nan
-
-    def loads_at(self, angle: float) -> FloatArray:
-        """Loads after a turn by an angle in degrees, (n_blocks, 6)."""
-        turn = np.deg2rad(angle)
-        return np.asarray(self.fixed + np.cos(turn) * self.turning + np.sin(turn) * self.across)
-
-
-@dataclass(frozen=True)
-class Settlement:
-    """Fixed blocks that give way together in one motion, and the reaction of their support against it.
-
-    The dead load of the case holds the reaction ``reference`` against the motion, the live load takes ``unit`` from it:
-    reaction = sense (reference − load factor × unit). What acts on these blocks themselves goes straight into their
-    support and does not count.
-
-    blocks    : (m,)
-    motions   : (m, 6) velocity and angular velocity about the centroid of each block; a unit velocity along the
-                direction of the settlement, less for supports that go less far than another, or a unit rotation
-    turns     : the motion is a rotation, the reaction a moment
-    words     : in words, for the listing
-    reference : reaction of the structure at rest on the support that has not moved yet, nan where not known yet
-    unit      : weight of the free blocks; times their mean distance from the axis where the support turns
-    sense     : 1; -1 where the greatest value of an objective is sought, whose negative is as small as it can be
-    """
-
-    blocks: IntArray
-    motions: FloatArray
-    turns: bool
-    words: str
-    reference: float
-    unit: float
-    sense: float = 1.0
-
-    def reaction(self, load_factor: float) -> float:
-        """Of the support, in the deck's unit of force, or force times length where it turns."""
-        return self.sense * (self.reference - load_factor * self.unit)
-
-    @property
-    def guides(self) -> Guides:
-        """The blocks as one body with one way to move."""
-        motions = np.zeros((len(self.blocks), 6, 6))
-        motions[:, :, 0] = self.motions
-        return Guides(self.blocks, np.zeros(len(self.blocks), dtype=np.int64), motions)
-
-
-@dataclass(frozen=True)
-class Objective:
-    """A force whose least or greatest value is sought: through a cut, or of ties. Its ``Settlement`` has no blocks.
-
-    series    : name of the load case in the deck, which became one for each end
-    end       : least or greatest
-    at        : load factor of the live loads of the deck, which are among the dead loads here
-    sides     : (n_bodies,) 1: the force acts on this body, -1: it comes from it, 0: neither
-    ties      : (k,) whose forces are added up; none: the force through the joints between the sides
-    direction : (3,) unit, along which the force counts; of ties any in which one pulls, as tension counts
-    """
-
-    series: str
-    end: str
-    at: float
-    sides: IntArray
-    ties: IntArray
-    direction: FloatArray
-
-    def crossed(self, bodies: IntArray) -> IntArray:
-        """Of interfaces between bodies a and b, (n, 2): 1 where their force on b counts, -1 for that on a, else 0."""
-        first, second = self.sides[bodies].T
-        return np.asarray(np.where(first * second < 0, second, 0))
 
 
 @dataclass(frozen=True)
@@ -240,10 +117,18 @@ class LoadCase:
     assessment: AssessmentSection | None = None
 
     @property
+    def question(self) -> Question:
+        """What it asks: the figure that its load factor stands for."""
+        if self.settlement is not None:
+            return Reaction(self.settlement) if self.objective is None else Force(self.settlement, self.objective)
+        if self.tilt is not None:
+            return Angle(self.tilt)
+        return LoadFactor() if self.travel is None else Travel(self.travel)
+
+    @property
     def deck_name(self) -> str:
         """Name in the deck, where a travelling load is one load case for all positions, an objective for both ends."""
-        of_deck = self.travel or self.objective
-        return self.name if of_deck is None else of_deck.series
+        return self.question.series or self.name
 
 
 @dataclass(frozen=True)
@@ -307,7 +192,7 @@ class Model:
             return self
         fixed = self.fixed.copy()
         fixed[settlement.blocks] = False
-        return replace(self, fixed=fixed, guides=joined(self.guides, settlement.guides))
+        return replace(self, fixed=fixed, guides=joined(self.guides, together(settlement.blocks, settlement.motions)))
 
     @property
     def free(self) -> IntArray:

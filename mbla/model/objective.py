@@ -29,12 +29,14 @@ from mbla.deck.text.tree import KeyPath
 from mbla.errors import Finding
 from mbla.model.guides import Guides, held_along
 from mbla.model.loads.load_kind import LoadSite
-from mbla.model.model import LoadCase, Objective, Settlement
+from mbla.model.model import LoadCase
 from mbla.model.selectors import select_blocks
 from mbla.model.settlement import size_of_loads
 from mbla.model.solids.plane import unit
 from mbla.model.ties.ties import OUTSIDE, Ties
 from mbla.model.wording import counted, named, vector
+from mbla.questions.force import Objective
+from mbla.questions.reaction import Settlement
 
 ENDS = {"least": 1.0, "greatest": -1.0}
 """Ends of the interval, and the sense in which each is the least value."""

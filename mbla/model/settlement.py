@@ -27,12 +27,13 @@ from mbla.deck.sections.load_cases import LoadCaseSection, SettlementSection, su
 from mbla.deck.text.tree import KeyPath
 from mbla.errors import Finding
 from mbla.model.guides import slide, turn
-from mbla.model.model import LoadCase, Settlement
+from mbla.model.model import LoadCase
 from mbla.model.selectors import Roster, select_blocks
 from mbla.model.solids.blocks import Blocks
 from mbla.model.solids.plane import unit
 from mbla.model.supports import Supports
 from mbla.model.wording import counted, named, vector
+from mbla.questions.reaction import Settlement
 
 
 def build_settlement(

@@ -26,7 +26,7 @@ from mbla.model.guides import Guides
 from mbla.model.join import halves_joined, polyhedra_of
 from mbla.model.loads.gravity import vector_of, with_gravity
 from mbla.model.loads.load_kind import entries_of
-from mbla.model.model import Ground, LoadCase, Model, Settlement
+from mbla.model.model import Ground, LoadCase, Model
 from mbla.model.selectors import Roster, check_overrides, select_blocks
 from mbla.model.settlement import with_reference
 from mbla.model.solids.blocks import BlockLabels, Blocks, carried_masses, join_labels
@@ -38,6 +38,7 @@ from mbla.model.supports import plane_of
 from mbla.model.ties.ties import OUTSIDE, Ties, joined_ties
 from mbla.model.transform import AffineMap, moved, reflection
 from mbla.model.wording import counted, named
+from mbla.questions.reaction import Settlement
 
 ON_MASSES = ("gravity", "acceleration")
 AT_PLACES = ("force", "moment", "line", "pressure", "vehicle")

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from mbla.deck.content import Expectation
 from mbla.errors import Notice
 from mbla.results.force_range import ForceRange, end_value, force_ranges_of
-from mbla.results.outcome import angle_of, associative_of, least_of, reaction_of, result_of
+from mbla.results.outcome import answer_of, associative_of, least_of, result_of
 from mbla.results.results import CaseResult
 from mbla.results.series import position_of, series_of
 from mbla.solution.solution import Status
@@ -29,7 +29,7 @@ def exit_code(cases: Sequence[CaseResult], notices: Sequence[Notice] = ()) -> in
     another is the worst, nor forces that have no limit: that is an answer.
     """
     harmless = {id(case) for series in series_of(cases) if series.worst is not None for case in series.cases}
-    harmless |= {id(case) for case in cases if case.load_case.objective is not None}
+    harmless |= {id(case) for case in cases if case.load_case.question.unbounded_answers}
     judged = [case for case in cases if case.status is not Status.UNBOUNDED or id(case) not in harmless]
     codes = {0 if as_asked(case) else EXIT_CODES[case.status] for case in judged}
     if any(notice.severity == "warning" and notice.identifier in FAULTS for notice in notices):
@@ -109,9 +109,9 @@ def compare_with_expected(case: CaseResult, expected: Expectation) -> list[str]:
     differences = _compare_status(name, case.status, expected)
     found = {
         "load_factor": getattr(result_of(case), "load_factor", None),
-        "angle": angle_of(case),
+        "angle": answer_of(case, "angle"),
         "associative_load_factor": getattr(associative_of(case), "load_factor", None),
-        "reaction": reaction_of(case),
+        "reaction": answer_of(case, "reaction"),
         "least_load_factor": least_of(case),
     }
     for key, value in found.items():
@@ -121,11 +121,11 @@ def compare_with_expected(case: CaseResult, expected: Expectation) -> list[str]:
     return differences
 
 
-ZERO_REACTION = 1e-3
-"""share of the weight of the free blocks below which a reaction is compared as if it were that share"""
+ZERO = 1e-12
+"""size below which figures that nothing else measures count as zero"""
 
 
 def _least(key: str, case: CaseResult) -> float:
     """Size below which a figure counts as zero in the comparison."""
-    settlement = case.load_case.settlement
-    return ZERO_REACTION * settlement.unit if key == "reaction" and settlement is not None else 1e-12
+    question = case.load_case.question
+    return max(question.least(0.0), ZERO) if key == question.group else ZERO

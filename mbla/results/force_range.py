@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from mbla.model.objective import ENDS
-from mbla.results.outcome import reaction_of, result_of
+from mbla.questions.force import Force
+from mbla.results.outcome import answer_of
 from mbla.results.results import CaseResult
 from mbla.solution.solution import Status
 
@@ -41,31 +40,19 @@ def force_ranges_of(cases: Sequence[CaseResult]) -> tuple[ForceRange, ...]:
     """The forces among the cases, in the order of the deck."""
     found: dict[str, dict[str, CaseResult]] = {}
     for case in cases:
-        objective = case.load_case.objective
-        if objective is not None:
-            found.setdefault(objective.series, {})[objective.end] = case
+        question = case.load_case.question
+        if isinstance(question, Force):
+            found.setdefault(question.series, {})[question.objective.end] = case
     return tuple(ForceRange(name, ends) for name, ends in found.items())
 
 
 def other_end(cases: Sequence[CaseResult], case: CaseResult) -> CaseResult | None:
     """The other end of the force of a case; None where it has none, or that was not solved."""
-    objective = case.load_case.objective
-    own = [each for each in force_ranges_of(cases) if objective is not None and each.name == objective.series]
+    own = [each for each in force_ranges_of(cases) if each.name == case.load_case.question.series]
     return next((end for each in own for end in each.ends.values() if end is not case), None)
 
 
 def end_value(case: CaseResult) -> float:
     """Value of an end; infinite where forces of any size fit, nan where there is no result."""
-    objective = case.load_case.objective
-    if case.status is Status.UNBOUNDED and objective is not None:
-        return -ENDS[objective.end] * math.inf
-    value = None if result_of(case) is None else reaction_of(case)
-    return math.nan if value is None else value
-
-
-def end_bounds(case: CaseResult) -> tuple[float, float]:
-    """Between which values an end is proved to lie: those of forces that balance the loads and of a mechanism."""
-    settlement = case.load_case.settlement
-    assert settlement is not None  # that of the cut
-    low, high = (settlement.reaction(bound) for bound in (case.checks.kinematic_bound, case.checks.static_bound))
-    return (low, high) if settlement.sense > 0 else (high, low)
+    question = case.load_case.question
+    return question.unlimited if case.status is Status.UNBOUNDED else answer_of(case)

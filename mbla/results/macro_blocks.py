@@ -32,7 +32,7 @@ from mbla.results.collapse.rigid_parts import part_motions, parts_of_one_twist
 from mbla.results.files import OutputFolder
 from mbla.results.listing.mechanism_words import motion_words
 from mbla.results.movable_deck import movable_deck, sections_text
-from mbla.results.outcome import angle_of, associative_of, reaction_of, result_of
+from mbla.results.outcome import answer_of, associative_of, result_of
 from mbla.results.provenance import deck_of
 from mbla.results.results import CaseResult, Results
 from mbla.results.series import chosen_cases, detailed_cases
@@ -69,7 +69,7 @@ def write_macro_blocks(
     DeckError, FileError
         the deck in the result cannot be read, or a file is there already and ``force`` is not set
     """
-    detailed = {case.load_case.name for case in detailed_cases(results.cases) if case.load_case.objective is None}
+    detailed = {case.load_case.name for case in detailed_cases(results.cases) if case.load_case.question.collapses}
     found = {}
     for case in chosen_cases(results, cases or None):
         mechanics = associative_of(case) if associative else result_of(case)
@@ -192,14 +192,12 @@ def _selector(results: Results, chosen: IntArray) -> list[Any]:
 
 def _expected(case: CaseResult, mechanics: Mechanics, name: str) -> dict[str, Any] | None:
     """What the macro-blocks should give, for ``mbla run --expected``; None where nothing proves that."""
-    own, load_case = case.solution.flow_rule == "associative", case.load_case
-    figures: dict[str, float | None] = {}
-    if mechanics is case.solution.associative and (own or (load_case.settlement is None and load_case.tilt is None)):
+    load_case, figures = case.load_case, dict[str, float]()
+    group = load_case.question.group
+    if group != "load_factor":
+        figures = {group: answer_of(case)} if case.solution.flow_rule == "associative" else {}
+    elif mechanics is case.solution.associative:
         figures = {"associative_load_factor": mechanics.load_factor}
-    if own and load_case.settlement is not None:
-        figures = {"reaction": reaction_of(case)}
-    if own and load_case.tilt is not None:
-        figures = {"angle": angle_of(case)}
     within = max(EXPECTED_WITHIN, case.checks.gap)
     source = {"tolerance": float(within), "source": f"the mechanism of {load_case.name} in {name}"}
     return {load_case.deck_name: figures | source} if figures else None

@@ -13,12 +13,11 @@ from collections.abc import Sequence
 import numpy as np
 
 from mbla.errors import Notice
-from mbla.model.model import LoadCase, Model, Tilt
+from mbla.model.model import LoadCase, Model
 from mbla.results.findings import found_notices, magnitude_notices
 from mbla.results.results import CaseResult, Results
 from mbla.solution.flow.path_record import Stop
 from mbla.solution.pushover.pushed import CurveEnd
-from mbla.solution.sequence.tilt_circle import angle_above, line_of
 from mbla.solution.solution import PROVED_STANDING, Checks, Mechanics, Standing, Status
 from mbla.solution.thresholds import APPROXIMATE_RESIDUAL
 
@@ -26,8 +25,6 @@ WITH_VALUE = (Status.SOLVED, Status.APPROXIMATE)
 """statuses whose load factor is a result"""
 CLEAN_RESIDUAL = 1e-6
 """residual up to which a solved case without associative flow needs no warning"""
-ZERO = 1e-3
-"""Share of dead over live load, and of the unit of a reaction: smaller figures are compared as if they were that."""
 RESIDUALS = {
     "equilibrium_residual": "of the mean load of a block",
     "yield_violation": "of the mean load of a block",
@@ -140,23 +137,28 @@ def rises_where_it_ends(case: CaseResult) -> bool:
 
 
 def least_factor(model: Model, load_case: LoadCase) -> float:
-    """A share of dead over live load on the free blocks: load factors below are compared as if they were that.
+    """Load factors below are compared as if they were that."""
+    return load_case.question.least_factor(dead_over_live(model, load_case))
 
-    Of a reaction, or another force that is sought, a share of its unit, in which its load factor counts.
-    """
-    if load_case.settlement is not None:
-        return ZERO
+
+def least_answer(model: Model, load_case: LoadCase) -> float:
+    """Figures that answer the case are compared as if they were that where they are below."""
+    return load_case.question.least(dead_over_live(model, load_case))
+
+
+def dead_over_live(model: Model, load_case: LoadCase) -> float:
+    """Dead over live forces on the free blocks; 0 without live ones."""
     dead, live = (float(np.abs(load[model.free, :3]).sum()) for load in (load_case.dead_load, load_case.live_load))
-    return ZERO * dead / live if live > 0.0 else 0.0
+    return dead / live if live > 0.0 else 0.0
 
 
 def apart(model: Model, load_case: LoadCase, one: float, other: float) -> float:
     """Difference of two load factors, or of the reactions that they stand for, over the second; 0 of equal ones."""
     if one == other:
         return 0.0
-    least, settlement = least_factor(model, load_case), load_case.settlement
-    if settlement is not None:
-        one, other, least = settlement.reaction(one), settlement.reaction(other), least * settlement.unit
+    question = load_case.question
+    least = least_factor(model, load_case) * question.scale
+    one, other = question.compared(one), question.compared(other)
     return abs(one - other) / max(abs(other), least)
 
 
@@ -227,7 +229,7 @@ def notices_of(results: Results) -> tuple[Notice, ...]:
     fallen = {_series(case) for case in results.cases if result_of(case) is not None} - {None}
     notices = list(results.notices)
     for case in results.cases:
-        answer = case.load_case.objective is not None or _series(case) in fallen
+        answer = case.load_case.question.unbounded_answers or _series(case) in fallen
         harmless = case.status is Status.UNBOUNDED and answer
         own = case_notices(case)
         doubtful = any(notice.identifier == "law-residual" for notice in own)
@@ -237,28 +239,26 @@ def notices_of(results: Results) -> tuple[Notice, ...]:
 
 
 def _series(case: CaseResult) -> str | None:
-    return None if case.load_case.travel is None else case.load_case.travel.series
+    return case.load_case.question.series
 
 
-# --- What a load factor stands for: the reaction of a support that gives way, the angle of a tilting table ----------
+# --- The figure that answers a case ---------------------------------------------------------------------------------
 
 
-AT_COLLAPSE = 1e-6
-"""distance of a load factor from 1 within which it belongs to the angle of the table"""
+def answer_of(case: CaseResult, group: str = "") -> float:
+    """The figure that a case asks for; nan where it is no result, and where its question is of another group."""
+    found, question = result_of(case), case.load_case.question
+    return math.nan if found is None or group not in ("", question.group) else question.stated(found.load_factor)
 
 
-def reaction_of(case: CaseResult) -> float | None:
-    """Reaction at which the structure follows the support; None where that is no result, or no support gives way."""
-    mechanics, settlement = result_of(case), case.load_case.settlement
-    return None if mechanics is None or settlement is None else settlement.reaction(mechanics.load_factor)
+def answer_bounds(case: CaseResult) -> tuple[float, float]:
+    """Between which figures the answer is proved to lie by associative flow; nan if not known."""
+    associative, checks = case.solution.associative, case.checks
+    mechanism = None if associative is None else associative.mechanism
+    return case.load_case.question.bounds(checks.static_bound, checks.kinematic_bound, mechanism)
 
 
-def angle_of(case: CaseResult) -> float:
-    """Angle of collapse in degrees; nan where there is none, or no table."""
-    tilt, found = case.load_case.tilt, result_of(case)
-    if tilt is None or found is None:
-        return math.nan
-    return math.degrees(math.atan(found.load_factor)) if tilt.tangent else tilt.angle
+# --- Pushovers ------------------------------------------------------------------------------------------------------
 
 
 def curve_residual(case: CaseResult) -> float:
@@ -286,24 +286,3 @@ def ultimate_displacement(case: CaseResult, sure: bool = True) -> float:
     before, last = curve[-2:]
     share = before.load_factor / (before.load_factor - last.load_factor)
     return before.displacement + share * (last.displacement - before.displacement)
-
-
-def angle_at(tilt: Tilt, load_factor: float) -> float:
-    """Angle in degrees that a load factor stands for; nan where it stands for none."""
-    if tilt.tangent:
-        return math.degrees(math.atan(load_factor))
-    return tilt.angle if tilt.angle == 0.0 or abs(load_factor - 1.0) <= AT_COLLAPSE else math.nan
-
-
-def angle_bounds(case: CaseResult) -> tuple[float, float]:
-    """Angle that is certainly borne and angle that is certainly not, by associative flow; degrees, nan if not known."""
-    tilt, solution, checks = case.load_case.tilt, case.solution, case.checks
-    if tilt is None or solution.associative is None:
-        return math.nan, math.nan
-    if tilt.tangent:
-        return math.degrees(math.atan(checks.static_bound)), math.degrees(math.atan(checks.kinematic_bound))
-    if math.isnan(tilt.angle) or math.isnan(checks.kinematic_bound):
-        return math.nan, math.nan
-    highest = line_of(tilt, solution.associative, checks.kinematic_bound).first_crossing()
-    lowest = angle_above(tilt.upright, checks.static_bound, math.radians(tilt.angle))
-    return math.degrees(lowest), math.degrees(highest) if math.isfinite(highest) else math.nan

@@ -9,8 +9,9 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.errors import UsageError
-from mbla.model.model import LoadCase, Model, TravelPosition
+from mbla.model.model import LoadCase, Model
 from mbla.model.solids.blocks import Blocks
+from mbla.questions.travel import TravelPosition
 from mbla.results.outcome import result_of
 from mbla.results.results import CaseResult, Results
 from mbla.solution.solution import Status

@@ -9,8 +9,8 @@ from collections.abc import Sequence
 import numpy as np
 import pytest
 
-from mbla.results.force_range import end_bounds, end_value, force_ranges_of
-from mbla.results.outcome import reaction_of
+from mbla.results.force_range import end_value, force_ranges_of
+from mbla.results.outcome import answer_bounds, answer_of
 from mbla.results.results import CaseResult
 from mbla.solution.sequence.objective import measured_force
 from mbla.solution.solution import Status
@@ -48,7 +48,7 @@ def ends_in(cases: Sequence[CaseResult]) -> dict[str, tuple[float, float]]:
             assert case.status in (Status.SOLVED, Status.UNBOUNDED), (case.status, case.solution.reason)
             assert case.checks.verified, case.checks.failures
             if case.status is Status.SOLVED:
-                low, high = end_bounds(case)
+                low, high = answer_bounds(case)
                 settlement = case.load_case.settlement
                 assert settlement is not None
                 room = 1e-9 * settlement.unit
@@ -255,7 +255,7 @@ def test_a_support_that_gives_way_has_the_same_reaction() -> None:
 """
     _, solved = cases_of(f"{ARCH}{cases}  thrust: {{objective: {THRUST}}}\nanalysis: {{flow_rule: associative}}\n")
     least, greatest = ends_in(solved)["thrust"]
-    outwards, inwards = (reaction_of(case) for case in solved[:2])
+    outwards, inwards = (answer_of(case) for case in solved[:2])
     assert outwards == pytest.approx(-greatest, rel=EXACT)
     assert inwards == pytest.approx(least, rel=EXACT)
 
@@ -445,5 +445,5 @@ analysis: {flow_rule: associative}
 def test_moments_alone_are_loads() -> None:
     """A beam without weight that is twisted about a tie: 3000 N m between the tie, the pad beside it and the other."""
     _, (sinks, *ends) = cases_of(LEVER)
-    assert reaction_of(sinks) == pytest.approx(657.8947368, rel=1e-6)
-    assert [reaction_of(end) for end in ends] == pytest.approx([657.8947368, 921.0526316], rel=1e-6)
+    assert answer_of(sinks) == pytest.approx(657.8947368, rel=1e-6)
+    assert [answer_of(end) for end in ends] == pytest.approx([657.8947368, 921.0526316], rel=1e-6)

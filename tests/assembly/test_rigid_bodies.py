@@ -9,7 +9,7 @@ import pytest
 
 from mbla.assembly.lift import motions_of_blocks, motions_of_bodies
 from mbla.model.model import LoadCase
-from mbla.results.outcome import reaction_of
+from mbla.results.outcome import answer_of
 from mbla.run import RunOptions, run
 from tests.assembly.towers import glued
 
@@ -80,4 +80,4 @@ def test_a_body_moves_as_its_guided_block_may(tmp_path: Path, blocks: str) -> No
     assert push.solution.mechanics is not None
     assert push.solution.mechanics.load_factor == pytest.approx(0.5, rel=1e-7)  # b/h, about the hinge at its edge
     # the beam of 3 m turns about the edge of the base, 0.5 m from its middle and 2 m from the far end
-    assert reaction_of(settle) == pytest.approx(3 * 0.5 * 2000 * 9.81 / 4, rel=1e-7)
+    assert answer_of(settle) == pytest.approx(3 * 0.5 * 2000 * 9.81 / 4, rel=1e-7)

@@ -11,7 +11,7 @@ from mbla.contacts import find_contacts
 from mbla.deck import read_deck
 from mbla.errors import DeckError
 from mbla.model import Model, build_model
-from mbla.results.outcome import reaction_of
+from mbla.results.outcome import answer_of
 from mbla.results.results import Results
 from mbla.run import RunOptions, run
 
@@ -146,7 +146,7 @@ def test_a_quarter_of_a_table(tmp_path: Path) -> None:
     assert lifted.load_factor == pytest.approx(1.0, rel=1e-7)
     weight = 4 * 1.2 * 1.4 * 0.3 * 2000 * 9.81
     # all four legs sink: they carry the slab to the end; as they spread each is pushed back by friction at the most
-    sinks, spreads = (reaction_of(results.case(name)) for name in ("leg_sinks", "legs_spread"))
+    sinks, spreads = (answer_of(results.case(name)) for name in ("leg_sinks", "legs_spread"))
     assert sinks == pytest.approx(weight, rel=1e-7)
     assert spreads == pytest.approx(-0.6 * weight, rel=1e-6)
 

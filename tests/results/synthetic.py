@@ -17,10 +17,14 @@ from mbla.deck.units import Units
 from mbla.errors import Message, Notice
 from mbla.model.fill import Fill
 from mbla.model.guides import Guides
-from mbla.model.model import Ground, Joint, LoadCase, Model, Objective, Pushing, Settlement, Tilt, TravelPosition
+from mbla.model.model import Ground, Joint, LoadCase, Model, Pushing
 from mbla.model.solids.blocks import Blocks, labels_of
 from mbla.model.ties.ties import Ties
 from mbla.program.reductions import ProgramSize, ReductionStep, StepState
+from mbla.questions.force import Objective
+from mbla.questions.reaction import Settlement
+from mbla.questions.tilt import Tilt
+from mbla.questions.travel import TravelPosition
 from mbla.results.assessment import Assessment, Figure
 from mbla.results.results import CaseResult, DeckRecord, Results
 from mbla.solution.further.further import Further

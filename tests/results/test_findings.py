@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from mbla.errors import Message
-from mbla.model.model import Tilt
+from mbla.questions.tilt import Tilt
 from mbla.results.findings import found_notices, magnitude_notices
 from mbla.results.listing.verdict_words import verdict
 from mbla.results.outcome import notices_of

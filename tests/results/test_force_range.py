@@ -9,10 +9,11 @@ import pytest
 
 from mbla.deck import read_deck
 from mbla.results.exit_status import differences, exit_code
-from mbla.results.force_range import end_bounds, end_value, force_ranges_of
+from mbla.results.force_range import end_value, force_ranges_of
 from mbla.results.hdf5.result_file import read_results_hdf5
 from mbla.results.listing.answers import range_words
 from mbla.results.listing.listing import listing
+from mbla.results.outcome import answer_bounds
 from mbla.results.pictures.loads import live_marks
 from mbla.results.pictures.marks import force_texts, thrust_lines
 from mbla.results.pictures.options import PictureOptions
@@ -63,7 +64,7 @@ def test_values_and_bounds(solved: tuple[Results, Path]) -> None:
     assert end_value(left.ends["greatest"]) == math.inf
     assert every.status is Status.SOLVED
     for case in every.ends.values():
-        low, high = end_bounds(case)
+        low, high = answer_bounds(case)
         assert end_value(case) == pytest.approx(1.5 * WEIGHT, rel=1e-7)
         assert low <= high * (1 + 1e-9)
         assert high - low <= 1e-6 * WEIGHT

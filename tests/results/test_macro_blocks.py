@@ -13,7 +13,7 @@ from mbla.cli import main
 from mbla.deck import read_deck
 from mbla.results.hdf5.result_file import read_results_hdf5
 from mbla.results.macro_blocks import with_slopes_left
-from mbla.results.outcome import associative_of, reaction_of
+from mbla.results.outcome import answer_of, associative_of
 from mbla.results.results import Results
 from tests.decks.folder import DECKS
 
@@ -94,9 +94,9 @@ def test_the_parts_of_a_support_that_gives_way_have_its_reaction(written: Writte
     results, decks = written(DECKS / "tutorials/settling_wall.yaml")
     assert set(decks) == {"sinks", "turns"}
     for name, path in decks.items():
-        before, again = reaction_of(results.case(name)), run_again(path)
+        before, again = answer_of(results.case(name)), run_again(path)
         assert before is not None
-        assert reaction_of(again.case(name)) == pytest.approx(before, rel=WITHIN)
+        assert answer_of(again.case(name)) == pytest.approx(before, rel=WITHIN)
         groups = read_deck(path).content.groups
         assert free_solids(again, name) == len(groups) - ("at_rest" in groups)
 

@@ -15,7 +15,7 @@ from mbla.results.exit_status import differences
 from mbla.results.listing.answers import standing_words
 from mbla.results.listing.listing import listing
 from mbla.results.listing.summary import summary_lines
-from mbla.results.outcome import angle_bounds, angle_of
+from mbla.results.outcome import answer_bounds, answer_of
 from mbla.results.record.json_record import results_json
 from mbla.results.results import CaseResult, Results
 from mbla.results.series import chosen_cases, detailed_cases, factor_of, series_of
@@ -74,14 +74,14 @@ def test_the_worst_is_not_claimed_where_a_position_has_no_result(results: Result
 
 
 def test_the_angle(results: Results) -> None:
-    angle = angle_of(results.cases[-1])
+    angle = answer_of(results.cases[-1])
     if "mortar" in results.model.joints and results.contacts.joint_names == ("mortar",):
         # W sin t = mu W cos t + c A with W/A = 25000 * 8 * 0.2/0.5 on the two heads of the piers
         expected = math.atan(0.6) + math.asin(100 * 0.5 * math.cos(math.atan(0.6)) / (25000 * 8 * 0.5 * 0.4))
     else:
         expected = math.atan(0.6)
     assert angle == pytest.approx(math.degrees(expected), rel=1e-8)
-    low, high = angle_bounds(results.cases[-1])
+    low, high = answer_bounds(results.cases[-1])
     assert low <= math.degrees(expected) * (1 + 1e-10)
     assert high >= math.degrees(expected) * (1 - 1e-10)
 

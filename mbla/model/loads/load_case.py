@@ -18,10 +18,11 @@ from mbla.model.loads.kinds import LOAD_KINDS
 from mbla.model.loads.load_kind import AppliedLoad, Entry, LoadSite, entries_of, without_levers
 from mbla.model.loads.tilt import tilt_loads
 from mbla.model.loads.travel import case_name, travel_loads
-from mbla.model.model import LoadCase, Pushing, TravelPosition
+from mbla.model.model import LoadCase, Pushing
 from mbla.model.selectors import select_blocks
 from mbla.model.solids.plane import unit
 from mbla.model.wording import named, vector
+from mbla.questions.travel import TravelPosition
 
 CANCELLED = 1e-12
 """sum of loads, relative to the loads themselves, at which nothing is left of them but rounding"""

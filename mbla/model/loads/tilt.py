@@ -20,9 +20,9 @@ from mbla.deck.text.tree import KeyPath
 from mbla.errors import Finding
 from mbla.model.loads.gravity import gravity_of, mass_forces
 from mbla.model.loads.load_kind import AppliedLoad, Entry, LoadSite
-from mbla.model.model import Tilt
 from mbla.model.solids.plane import unit
 from mbla.model.wording import vector
+from mbla.questions.tilt import Tilt
 
 ALONG = 1e-9
 """share of gravity across the axis, below which the axis counts as parallel to it"""

@@ -23,9 +23,9 @@ from mbla.model.loads.dispersal import Spread
 from mbla.model.loads.landing import Landing, level, on_blocks, share_of
 from mbla.model.loads.load_kind import AppliedLoad, Entry, LoadSite
 from mbla.model.loads.vehicle import axles_of, remark_upwards
-from mbla.model.model import TravelPosition
 from mbla.model.selectors import select_blocks
 from mbla.model.wording import counted, vector
+from mbla.questions.travel import TravelPosition
 
 ON_PATH = 1e-9
 """share of the length of a path within which a force at its end is on it: distances are sums with rounding"""

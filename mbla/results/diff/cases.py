@@ -14,13 +14,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from mbla.arrays import FloatArray
-from mbla.model.model import LoadCase
 from mbla.model.solids.blocks import Blocks
 from mbla.results.collapse.interface_modes import InterfaceMode
 from mbla.results.collapse.mechanics import load_on_structure, reactions_of
 from mbla.results.collapse.motion import displacements_at
 from mbla.results.diff.matching import Factors, Matching, match_interfaces
-from mbla.results.outcome import ZERO, law_residual, least_factor, result_of
+from mbla.results.outcome import law_residual, least_answer, least_factor, result_of
 from mbla.results.record.columns import CASE_COLUMNS
 from mbla.results.record.quantity import unit_text
 from mbla.results.record.scene import Scene
@@ -181,22 +180,14 @@ def _figures(first: Scene, second: Scene, factors: Factors, tolerance: float) ->
     def compared(name: str) -> Figure:
         unit = COLUMNS[name][0].quantity.unit
         values = _value(first, name), _value(second, name) * factors.of(unit)
-        least = 0.0 if unit == "degree" else least_factor(first.model, load_case)
-        if load_case.settlement is not None and unit in ("force", "moment"):
-            least = ZERO * load_case.settlement.unit
+        own = name == load_case.question.column
+        least = (least_answer if own else least_factor)(first.model, load_case)
         return figure(name, None if unit == "1" else unit_text(unit, first.model.units), values, tolerance, least)
 
-    asked = {_asked(_case(scene).load_case) for scene in (first, second)}
+    asked = {_case(scene).load_case.question.column for scene in (first, second)}
     answer = compared(asked.pop() if len(asked) == 1 else "load_factor")
     further = [compared(name) for name in FURTHER]
     return answer, tuple(found for found in further if not np.isnan(found.values).all())
-
-
-def _asked(load_case: LoadCase) -> str:
-    """The quantity that answers a load case."""
-    if load_case.settlement is not None:
-        return "reaction_moment" if load_case.settlement.turns else "reaction_force"
-    return "load_factor" if load_case.tilt is None else "angle"
 
 
 def _value(scene: Scene, name: str) -> float:

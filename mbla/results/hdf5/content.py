@@ -13,10 +13,14 @@ from mbla.assembly.assembly import Assembly
 from mbla.contacts.contacts import ContactReport, Contacts
 from mbla.deck.sections.selectors import POSITIONS
 from mbla.errors import Message, Notice
-from mbla.model.model import Joint, LoadCase, Model, Objective, Pushing, Settlement, Tilt, TravelPosition
+from mbla.model.model import Joint, LoadCase, Model, Pushing
 from mbla.model.solids.blocks import Blocks
 from mbla.model.ties.ties import Ties
 from mbla.program.reductions import ProgramSize
+from mbla.questions.force import Objective
+from mbla.questions.reaction import Settlement
+from mbla.questions.tilt import Tilt
+from mbla.questions.travel import TravelPosition
 from mbla.results.assessment import Figure
 from mbla.results.collapse.collapse import collapse_of
 from mbla.results.hdf5.layout import FILETYPE, VERSION, Content, fields_of
@@ -247,9 +251,9 @@ def case_content(assembly: Assembly, case: CaseResult) -> Content:
         content |= _columns(group, kind, getattr(solution, group))
     if case.assessment is not None:
         content |= _columns("assessment", Figure, case.assessment.figures)
-    settlement = case.load_case.settlement
-    if settlement is not None and solution.mechanics is not None:
-        content["reaction"] = settlement.reaction(solution.mechanics.load_factor)
+    question = case.load_case.question
+    if question.group == "reaction" and solution.mechanics is not None:
+        content["reaction"] = question.value(solution.mechanics.load_factor)
     for part, (group, _) in ANSWERS.items():
         mechanics: Mechanics | None = getattr(solution, part)
         if mechanics is not None and not (part == "associative" and associative_is_own(case)):

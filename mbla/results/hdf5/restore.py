@@ -21,12 +21,16 @@ from mbla.deck.units import KILOGRAMS, METRES, NEWTONS, Units
 from mbla.errors import Notice
 from mbla.model.fill import Fill
 from mbla.model.guides import NO_GUIDES, Guides
-from mbla.model.model import Ground, Joint, LoadCase, Model, Objective, Pushing, Settlement, Tilt, TravelPosition
+from mbla.model.model import Ground, Joint, LoadCase, Model, Pushing
 from mbla.model.solids.blocks import BlockLabels, Blocks
 from mbla.model.solids.measures import volumes_and_centroids
 from mbla.model.solids.polyhedra import Polyhedra
 from mbla.model.solids.ragged import row_sums
 from mbla.model.ties.ties import NO_TIES, OUTSIDE, Ties
+from mbla.questions.force import Objective
+from mbla.questions.reaction import Settlement
+from mbla.questions.tilt import Tilt
+from mbla.questions.travel import TravelPosition
 from mbla.results.hdf5.case_restore import case_from, held
 from mbla.results.hdf5.content import RECORD_NAMES
 from mbla.results.hdf5.layout import Content

@@ -1,8 +1,4 @@
-"""What a load factor is called and counted in: by the live load, a settlement, a tilt, a load that travels.
-
-reaction = reaction at rest − load factor × unit, so that the kinematic bound of the load factor is a lower bound of the
-reaction and the static one an upper bound.
-"""
+"""The figures that answer load cases, in digits and words: of each, of the ends of a force, of a load that travels."""
 
 from __future__ import annotations
 
@@ -12,17 +8,13 @@ from typing import Any
 
 import numpy as np
 
-from mbla.model.model import LoadCase, Model, Objective, Settlement, TravelPosition
-from mbla.results.force_range import ForceRange, end_bounds, end_value
+from mbla.model.model import LoadCase, Model
+from mbla.questions.figures import significant
+from mbla.questions.force import Force
+from mbla.questions.travel import TravelPosition
+from mbla.results.force_range import ForceRange, end_value
 from mbla.results.listing.text import counted, entry, heading, number, sentence, table, vector
-from mbla.results.outcome import (
-    angle_at,
-    angle_bounds,
-    associative_of,
-    least_of,
-    reaction_of,
-    result_of,
-)
+from mbla.results.outcome import answer_bounds, answer_of, associative_of, least_of, result_of
 from mbla.results.record.json_values import number as json_number
 from mbla.results.results import CaseResult
 from mbla.results.series import Series, factor_of, position_of
@@ -31,95 +23,34 @@ from mbla.solution.solution import Status
 
 def reaction_json(case: CaseResult) -> dict[str, Any] | None:
     """The reaction with its bounds (those of associative flow) and what the load factor is counted from and in."""
-    settlement = case.load_case.settlement
-    if settlement is None:
+    question = case.load_case.question
+    if question.group != "reaction":
         return None
-    value, (low, high) = reaction_of(case), end_bounds(case)
+    low, high = answer_bounds(case)
     return {
-        "value": None if value is None else json_number(value),
+        "value": json_number(answer_of(case)),
         "lower_bound": json_number(low),
         "upper_bound": json_number(high),
-        "at_rest": json_number(settlement.reaction(0.0)),
-        "unit": json_number(settlement.unit),
-        "kind": "moment" if settlement.turns else "force",
+        "at_rest": json_number(question.value(0.0)),
+        "unit": json_number(question.scale),
+        "kind": question.kind,
     }
 
 
-def settlement_lines(model: Model, case: CaseResult) -> list[str]:
-    """The reaction, its bounds, and what it falls from, one to a line; nothing where no support gives way."""
-    settlement, value = case.load_case.settlement, reaction_of(case)
-    if settlement is None:
-        return []
-    if case.load_case.objective is not None:
-        return _end_lines(model, case, case.load_case.objective)
-    unit, lines = reaction_unit(model, settlement), []
-    if value is not None:
-        value = _or_nothing(settlement, value)
-        pushed = "; negative: the support must be pushed the way it gives" if value < 0.0 else ""
-        lines += entry("reaction of the support", f"{number(value)} {unit}{pushed}")
-    low, high = bound_figures(case)
-    lines += entry("associative, its bounds", f"{low} .. {high} {unit}")
-    lines += entry("one at rest", f"{number(settlement.reference)} {unit}   (many may be possible)")
-    of = "the dead load of the free blocks" + " times its mean distance from the axis" * settlement.turns
-    return lines + entry("load factor counts", f"its loss, in {number(settlement.unit)} {unit}: {of}")
-
-
-def _end_lines(model: Model, case: CaseResult, objective: Objective) -> list[str]:
-    """An end of a force, its bounds, and what its load factor counts."""
-    settlement, unit = case.load_case.settlement, model.units.force
-    assert settlement is not None  # that of the cut
-    lines = entry(f"{objective.end} force", f"{number(answer_value(case.load_case, _factor(case)))} {unit}")
-    low, high = bound_figures(case)
-    lines += entry("its bounds", f"{low} .. {high} {unit}")
-    away = "below" if settlement.sense > 0 else "above"
-    start = f"{number(settlement.sense * settlement.reference)} {unit}"
-    return lines + entry(
-        "load factor counts", f"how far {away} {start}, in {number(settlement.unit)} {unit}: the loads"
-    )
-
-
-def _factor(case: CaseResult) -> float:
-    found = result_of(case)
-    return np.nan if found is None else found.load_factor
-
-
-NOTHING = 1e-9
-"""share of its unit below which a reaction is written as zero: rounding of the load factor"""
-
-
-def _or_nothing(settlement: Settlement, reaction: float) -> float:
-    """A reaction, zero where it is one but for rounding."""
-    return 0.0 if abs(reaction) <= NOTHING * settlement.unit else reaction
-
-
-def reaction_unit(model: Model, settlement: Settlement) -> str:
-    """``N``, or ``N m`` where the support turns."""
-    units = model.units
-    return f"{units.force} {units.length}" if settlement.turns else units.force
+def answer_lines(model: Model, case: CaseResult) -> list[str]:
+    """What a case asks for besides its load factor, and its bounds, one to a line."""
+    question = case.load_case.question
+    entries = question.entries(question.shown(answer_of(case)), proved_bounds(case), model.units)
+    return [line for name, text in entries for line in entry(name, text)]
 
 
 # --- The answer of a case in digits for tables ----------------------------------------------------------------------
 
 
-def answer_head(model: Model, load_case: LoadCase) -> str:
-    """What the load factor of a case stands for: the head of its column."""
-    if load_case.objective is not None:
-        return f"force [{model.units.force}]"
-    if load_case.settlement is not None:
-        return f"reaction [{reaction_unit(model, load_case.settlement)}]"
-    return "load factor" if load_case.tilt is None else "angle [degree]"
-
-
-def answer_value(load_case: LoadCase, load_factor: float) -> float:
-    """The answer that a load factor stands for; nan where it stands for none."""
-    if load_case.settlement is not None:
-        return _or_nothing(load_case.settlement, load_case.settlement.reaction(load_factor))
-    return load_factor if load_case.tilt is None else angle_at(load_case.tilt, load_factor)
-
-
 def answer_figure(load_case: LoadCase, load_factor: float) -> str:
-    """The answer in six digits; ``-`` where there is none."""
-    return number(answer_value(load_case, load_factor))
+    """The answer that a load factor stands for in six digits; ``-`` where there is none."""
+    question = load_case.question
+    return number(question.shown(question.value(load_factor)))
 
 
 def status_name(status: Status) -> str:
@@ -132,15 +63,14 @@ def status_words(status: Status) -> str:
     return status_name(status) if status is Status.SOLVED else status_name(status).upper()
 
 
+def proved_bounds(case: CaseResult) -> tuple[float, float]:
+    """What associative flow proves to be borne and not to be borne, as the answer of the case."""
+    return case.load_case.question.by_proof(answer_bounds(case))
+
+
 def bound_figures(case: CaseResult) -> tuple[str, str]:
-    """What associative flow proves to be borne and not to be borne, as the answer of the case, eight digits."""
-    low, high = case.checks.static_bound, case.checks.kinematic_bound
-    if case.load_case.tilt is not None:
-        low, high = angle_bounds(case)
-    elif case.load_case.objective is not None:
-        low, high = end_bounds(case)
-    elif case.load_case.settlement is not None:
-        low, high = (answer_value(case.load_case, bound) for bound in (low, high))
+    """These two in eight digits."""
+    low, high = proved_bounds(case)
     return digits(low), digits(high)
 
 
@@ -149,7 +79,7 @@ def answer_columns(model: Model, cases: Sequence[CaseResult]) -> tuple[list[str]
 
     The least is there where a search was made for some case.
     """
-    answers = list(dict.fromkeys(answer_head(model, case.load_case) for case in cases))
+    answers = list(dict.fromkeys(case.load_case.question.head(model.units) for case in cases))
     several = any(not math.isnan(least_of(case)) for case in cases)
     rows = []
     for case in cases:
@@ -157,7 +87,7 @@ def answer_columns(model: Model, cases: Sequence[CaseResult]) -> tuple[list[str]
             answer_figure(case.load_case, np.nan if found is None else found.load_factor)
             for found in (result_of(case), associative_of(case))
         )
-        figures = [own if head == answer_head(model, case.load_case) else "" for head in answers]
+        figures = [own if head == case.load_case.question.head(model.units) else "" for head in answers]
         least = [answer_figure(case.load_case, least_of(case))] if several else []
         rows.append([*figures, *least, associative])
     return [*answers, *([LEAST] if several else []), "associative"], rows
@@ -168,7 +98,7 @@ LEAST = "least found"
 
 def digits(value: float) -> str:
     """Eight significant digits; ``-`` where there is no number."""
-    return "-" if math.isnan(value) else f"{value + 0.0:.8g}"
+    return significant(value, 8)
 
 
 # --- A force in words: its least and greatest value ------------------------------------------------------------------
@@ -186,7 +116,7 @@ def objective_lines(model: Model, found: ForceRange) -> list[str]:
     lines = heading(f"Force {found.name}") + sentence(f"{range_words(model, found)}.")
     head = ["end", "status", f"force [{unit}]", f"lower bound [{unit}]", f"upper bound [{unit}]"]
     rows = [
-        [end, status_name(case.status), _end_figure(case), *(digits(bound) for bound in end_bounds(case))]
+        [end, status_name(case.status), _end_figure(case), *(digits(bound) for bound in answer_bounds(case))]
         for end, case in found.ends.items()
     ]
     return [*lines, "", *table(head, rows, left=2), "", *sentence(PROVED)]
@@ -194,11 +124,10 @@ def objective_lines(model: Model, found: ForceRange) -> list[str]:
 
 def range_words(model: Model, found: ForceRange) -> str:
     """``thrust: force of the supports on 1 block along (1, 0, 0), between 8753.85 N and 13297.7 N``."""
-    case = next(iter(found.ends.values()))
-    settlement, objective, unit = case.load_case.settlement, case.load_case.objective, model.units.force
-    assert settlement is not None  # what makes it an end
-    assert objective is not None
-    what = f"{found.name}: {settlement.words}" + (f" at load factor {number(objective.at)}" if objective.at else "")
+    question, unit = next(iter(found.ends.values())).load_case.question, model.units.force
+    assert isinstance(question, Force)  # what makes it an end
+    at = question.objective.at
+    what = f"{found.name}: {question.settlement.words}" + (f" at load factor {number(at)}" if at else "")
     if found.status is Status.NO_EQUILIBRIUM:
         return f"{what}: none, the structure does not carry these loads"
     words = []
@@ -216,8 +145,7 @@ UNSURE = tuple(status for status in Status if status not in (Status.SOLVED, Stat
 
 
 def _end_figure(case: CaseResult) -> str:
-    value = end_value(case)
-    return number(value) if not np.isfinite(value) else answer_figure(case.load_case, _factor(case))
+    return number(case.load_case.question.shown(end_value(case)))
 
 
 # --- Travelling loads in words: where a vehicle stands, a row for each position, and the worst ----------------------

@@ -11,9 +11,8 @@ from mbla.arrays import evenly
 from mbla.model.model import Model
 from mbla.results.listing.answers import (
     answer_figure,
-    answer_head,
+    answer_lines,
     digits,
-    settlement_lines,
     status_name,
 )
 from mbla.results.listing.text import MOST_ROWS, counted, entry, long_table, number, sentence, small, table
@@ -21,8 +20,6 @@ from mbla.results.listing.verdict_words import load_factor_words
 from mbla.results.outcome import (
     FALLEN,
     RESIDUALS,
-    angle_bounds,
-    angle_of,
     associative_of,
     best_iterate,
     falls_while_moving,
@@ -38,12 +35,9 @@ from mbla.solution.verification.verify_points import tolerances
 
 def figures(model: Model, case: CaseResult) -> list[str]:
     """Load factors by both flow rules, bounds, residuals, size of the program, verdict of the verification."""
-    lines = (
-        entry("status", status_name(case.status))
-        + settlement_lines(model, case)
-        + _factors(model, case)
-        + _bounds(case)
-    )
+    question = case.load_case.question
+    lines = entry("status", status_name(case.status))
+    lines += (answer_lines(model, case) if question.entries_first else []) + _factors(model, case) + _bounds(case)
     lines += _standing(model, case)
     if case.solution.size is not None:
         lines += entry("solved as", size_words(case.solution.size))
@@ -62,23 +56,13 @@ def _factors(model: Model, case: CaseResult) -> list[str]:
         lines += entry(f"load factor, {rule}", number(own.load_factor))
     if best is not None:
         lines += entry(f"best iterate, {rule}", f"{number(best.load_factor)}   (no load factor)")
-    lines += _angle(case)
+    question = case.load_case.question
+    lines += [] if question.entries_first else answer_lines(model, case)
     if not np.isnan(least_of(case)):
-        lines += entry(
-            f"{answer_head(model, case.load_case)}, least found", answer_figure(case.load_case, least_of(case))
-        )
+        lines += entry(f"{question.head(model.units)}, least found", answer_figure(case.load_case, least_of(case)))
     if associative is not None and solution.flow_rule != "associative":
         lines += entry("load factor, associative", _beside(associative, own))
     return lines
-
-
-def _angle(case: CaseResult) -> list[str]:
-    """A tilting table: the angle, and those between which it is proved to lie."""
-    if case.load_case.tilt is None:
-        return []
-    low, high = angle_bounds(case)
-    lines = entry("angle", f"{digits(angle_of(case))} degrees")
-    return lines + entry("angle, associative bounds", f"{digits(low)} .. {digits(high)} degrees")
 
 
 def _bounds(case: CaseResult) -> list[str]:

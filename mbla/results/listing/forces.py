@@ -29,7 +29,7 @@ def reaction_lines(model: Model, contacts: Contacts, load_case: LoadCase, mechan
     named = [(reaction.support, reaction.wrench) for reaction in reactions]
     named += [("sum of reactions", total), ("loads on free blocks", load), ("out of balance", total + load)]
     force, length = model.units.force, model.units.length
-    at_collapse = " at collapse" if load_case.objective is None else ""
+    at_collapse = " at collapse" * load_case.question.collapses
     head = ["reaction on the structure", *(f"F{axis}" for axis in "xyz"), *(f"M{axis}" for axis in "xyz")]
     return [
         "",
@@ -107,7 +107,7 @@ def freedom_lines(contacts: Contacts, case: CaseResult, freedom: ForceFreedom | 
             f"resultants of {int(freedom.determined.sum())} of {counted(len(contacts), 'interface')} are unique."
         )
     ask = " For the least and the greatest value of a force: a load case with objective."
-    return sentence(text + ask * (case.load_case.objective is None))
+    return sentence(text + ask * case.load_case.question.collapses)
 
 
 # --- Where the power of a mechanism goes ----------------------------------------------------------------------------
@@ -130,8 +130,6 @@ def work_lines(load_case: LoadCase, work: Work, *, soil: bool = False) -> list[s
     joints |= {"normal forces of joints" if normal > 0 else "dilatancy": normal}
     joints["ties and soil" if soil else "ties"] = work.ties
     shares = [part(name, power) for name, power in joints.items() if name == "friction" or part("", power) != " 0.0 %"]
-    settles = load_case.settlement is not None and load_case.objective is None  # the dead load has the reaction at rest
-    live, dead = ("loss of reaction", "dead load and reaction at rest") if settles else ("live load", "dead load")
-    live = live if load_case.objective is None else "force through the cut"
+    live, dead = load_case.question.powers
     loads = f"{part(live, work.live)}, {part(dead, work.dead)}"
     return sentence(f"Energy balance, shares of the work put in: {loads}; dissipated: {', '.join(shares)}.")

@@ -31,7 +31,7 @@ def pushovers_words(results: Results) -> tuple[str, ...]:
 def pushover_words(model: Model, load_case: LoadCase, again: PushoverAgain) -> str:
     """What a pushover that was followed anew came to, beside that of the file."""
     words = f"the pushover followed anew has {counted(again.steps, 'step')} and ends because {again.end}"
-    of = "load factors" if load_case.settlement is None else "reactions"
+    of = load_case.question.factors
     if again.agrees:
         return f"{words}; {of} of the file are {_percent(again.off)} off"
     says = [f"{of} of the file are up to {_percent(again.off)} off, at {number(again.at)} {model.units.length}"]

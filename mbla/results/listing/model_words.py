@@ -102,8 +102,7 @@ def model_lines(model: Model) -> list[str]:
     for case in model.load_cases:
         lines += sentence(f"{case.name}")
         lines += [line for words in case.dead_words or ("none",) for line in entry("  dead load", words)]
-        kind = "  live load" if case.settlement is None else "  gives way" if case.objective is None else "  sought"
-        lines += [line for words in case.live_words for line in entry(kind, words)]
+        lines += [line for words in case.live_words for line in entry(f"  {case.question.applied}", words)]
     return lines
 
 

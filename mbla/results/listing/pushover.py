@@ -9,7 +9,6 @@ import numpy as np
 
 from mbla.arrays import evenly
 from mbla.model.model import LoadCase, Model
-from mbla.results.listing.answers import answer_head
 from mbla.results.listing.text import MOST_ROWS, counted, full_sentence, long_table, number, sentence, small, within
 from mbla.results.listing.verdict_words import load_factor_words
 from mbla.results.outcome import curve_residual, ultimate_displacement
@@ -54,8 +53,8 @@ def curve_words(model: Model, case: CaseResult) -> str:
             says += f", where {words}"
     errors = np.array([row.error for row in curve])
     if np.isfinite(errors).any():
-        settles = case.load_case.settlement
-        values = [row.load_factor if settles is None else row.reaction / settles.unit for row in curve]
+        question = case.load_case.question
+        values = [row.reaction / question.scale if question.group == "reaction" else row.load_factor for row in curve]
         says += (
             f"; steps of twice the size differ by up to {np.nanmax(errors) / np.abs(values).max():.1g} of the greatest"
         )
@@ -100,8 +99,8 @@ def _in_space(case: CaseResult) -> bool:
 
 def row_words(model: Model, load_case: LoadCase, row: CurveRow) -> str:
     """The load factor of a row as that of its load case: ``0.145 g``; of a tilting table ``9.3 degrees of tilt``."""
-    if load_case.tilt is not None:
-        return f"{number(row.angle)} degrees of tilt"
+    if load_case.question.group == "angle":
+        return load_case.question.told(row.angle, model.units)
     return load_factor_words(model, load_case, row.load_factor)
 
 
@@ -134,15 +133,14 @@ def curve_lines(model: Model, case: CaseResult) -> list[str]:
     curve, units = case.solution.further.pushover.curve, model.units
     if not curve:
         return []
-    settlement, tied, crushed = case.load_case.settlement, bool(len(model.ties)), any(row.crushing for row in curve)
-    unit = 1.0 if settlement is None else settlement.unit
+    question, tied, crushed = case.load_case.question, bool(len(model.ties)), any(row.crushing for row in curve)
     jumped = [row.step for row in curve if row.jumps][:MOST_ROWS]
     shown = [curve[row] for row in sorted({*evenly(len(curve), MOST_ROWS), *jumped})]
     rows = [
         [
             str(row.step),
             *(number(value) for value in (row.displacement, row.answer)),
-            *(small(value) for value in (row.error * unit, row.residual if row.step else np.nan)),
+            *(small(value) for value in (row.error * question.scale, row.residual if row.step else np.nan)),
             *(
                 f"{value + 0.0:.4g}"
                 for value in (row.live_work, row.friction + row.tie_work + row.crushing, row.potential)
@@ -152,7 +150,7 @@ def curve_lines(model: Model, case: CaseResult) -> list[str]:
         ]
         for row in shown
     ]
-    head = ["step", f"moved [{units.length}]", answer_head(model, case.load_case)]
+    head = ["step", f"moved [{units.length}]", question.head(units)]
     several = tied or crushed
     head += ["error", "residual", "live work", "lost" if several else "friction", "dead load", "left", "motion"]
     says = [curve_words(model, case), *([] if _in_space(case) else [stiffness_words(model, case)])]

@@ -13,6 +13,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from mbla.questions.figures import significant
+
 
 @dataclass(frozen=True)
 class Block:
@@ -132,7 +134,7 @@ def shortened(text: str, width: int) -> str:
 
 def number(value: float) -> str:
     """Six significant digits; ``-`` where there is no number."""
-    return "-" if np.isnan(value) else f"{value + 0.0:.6g}"
+    return significant(value)
 
 
 def within(value: float, error: float) -> str:

@@ -7,10 +7,9 @@ import numpy as np
 from mbla.model.model import LoadCase, Model
 from mbla.results.collapse.mechanics import live_load_in_g
 from mbla.results.findings import BROKEN, rounding_of
-from mbla.results.listing.answers import answer_value, reaction_unit, status_name
+from mbla.results.listing.answers import answer_figure, status_name
 from mbla.results.listing.text import number, small
 from mbla.results.outcome import (
-    angle_at,
     associative_of,
     best_iterate,
     falls_while_moving,
@@ -33,20 +32,10 @@ def load_factor_words(model: Model, load_case: LoadCase, load_factor: float) -> 
 
     ``a reaction of 5232 N`` where a support gives way, ``31.2 degrees of tilt`` for a tilting table.
     """
-    if load_case.objective is not None:
-        return f"a force of {number(answer_value(load_case, load_factor))} {model.units.force}"
-    if load_case.settlement is not None:
-        return (
-            f"a reaction of {number(answer_value(load_case, load_factor))} {reaction_unit(model, load_case.settlement)}"
-        )
-    if load_case.tilt is not None:
-        angle = angle_at(load_case.tilt, load_factor)
-        if np.isnan(angle):
-            return f"{number(load_factor)} times the change of the loads by the tilt"
-        return f"{number(angle)} degrees of tilt"
-    size = live_load_in_g(model, load_case)
+    question = load_case.question
+    size = live_load_in_g(model, load_case) if question.group == "load_factor" else None
     if size is None:
-        return f"{number(load_factor)} times the live load"
+        return question.factor_words(load_factor, model.units)
     return f"{number(load_factor * size)} g"
 
 
@@ -55,14 +44,13 @@ def verdict(model: Model, case: CaseResult) -> str:
     mechanics = result_of(case)
     if mechanics is None:
         return _without_load_factor(model, case)
+    question, verified = case.load_case.question, case.status is Status.SOLVED
+    if not question.collapses:
+        figure = f"{answer_figure(case.load_case, mechanics.load_factor)} {question.unit(model.units)}"
+        return f"{question.what} {figure}, {'verified' if verified else 'approximate'}"
     value = _known_words(model, case, mechanics.load_factor)
-    verified = case.status is Status.SOLVED
     known = f"{value}, verified" if verified else f"about {value}, approximate"
-    if case.load_case.objective is not None:
-        figure = f"{number(answer_value(case.load_case, mechanics.load_factor))} {model.units.force}"
-        return f"{case.load_case.objective.end} force {figure}, {'verified' if verified else 'approximate'}"
-    moves = "starts to move" if case.by_path else "collapses"
-    moves = "follows its support" if case.load_case.settlement is not None else moves
+    moves = question.moves(by_path=case.by_path)
     if presumes_standing(case):
         return f"it is in doubt whether it stands, and so where it {moves}; a state that fits the joint law at {known}"
     if falls_while_moving(case) and mechanics.load_factor > rounding_of(model, case):
@@ -144,10 +132,10 @@ def stiffness_words(model: Model, case: CaseResult) -> str:
 
 def _known_words(model: Model, case: CaseResult, load_factor: float) -> str:
     """A load factor; of one that rounding could have made, how much that is."""
-    rounding = rounding_of(model, case)
-    nothing = abs(load_factor) <= rounding and case.load_case.settlement is None
+    rounding, question = rounding_of(model, case), case.load_case.question
+    nothing = abs(load_factor) <= rounding and question.multiplies
     words = load_factor_words(model, case.load_case, 0.0 if nothing else load_factor)
-    if rounding == 0.0 or case.load_case.settlement is not None or case.load_case.tilt is not None:
+    if rounding == 0.0 or not question.rounding_told:
         return words
     return f"{words} to within {load_factor_words(model, case.load_case, float(f'{rounding:.1e}'))}"
 
@@ -168,20 +156,12 @@ def _without_load_factor(model: Model, case: CaseResult) -> str:
 
 
 def _without_figures(case: CaseResult) -> str:
-    if case.load_case.objective is not None and case.status in (Status.NO_EQUILIBRIUM, Status.UNBOUNDED):
-        if case.status is Status.UNBOUNDED:
-            return f"no {case.load_case.objective.end} force: joints lock, and forces of any size fit the loads"
-        return "no equilibrium: the structure does not carry these loads"
+    question, flow_rule = case.load_case.question, case.solution.flow_rule
     if case.status is Status.NO_EQUILIBRIUM:
-        return "no equilibrium: the structure cannot carry its dead load"
+        return question.no_equilibrium
     if case.status is Status.UNBOUNDED:
-        decided = case.solution.flow_rule in ("associative", "non_associative") or case.solution.lock is not None
-        words = "no collapse: no multiple of the live load brings the structure down"
-        if case.load_case.settlement is not None:
-            words = "no least reaction: the structure holds the support back however hard that pulls away from it"
-        elif case.load_case.tilt is not None:
-            words = "no angle of collapse: it bears gravity turned by every angle up to 180 degrees"
-            decided = case.solution.flow_rule == "associative" or case.solution.lock is not None
+        decided = flow_rule in question.decided_by or case.solution.lock is not None
+        words = question.unbounded
         return words if decided else f"{words} by associative flow; undecided for the flow rule of the deck"
     if case.status is Status.NOT_VERIFIED:
         return "NOT VERIFIED: no load factor"
@@ -206,12 +186,7 @@ def bound_words(model: Model, case: CaseResult) -> str:
     ):
         return ""
     value = load_factor_words(model, case.load_case, case.checks.kinematic_bound)
-    if case.load_case.objective is not None:
-        beyond = "no less" if case.load_case.objective.end == "least" else "no more"
-        return f"certain: {beyond} than {value} (a mechanism proves it, whatever the forces)"
-    if case.load_case.settlement is not None:
-        return f"certain: its support gives way at no less than {value} (valid for every flow rule)"
-    return f"certain: it collapses at no more than {value} (kinematic bound, valid for every flow rule)"
+    return f"certain: {case.load_case.question.limited(value)}"
 
 
 def uniqueness_words(model: Model, case: CaseResult) -> str:

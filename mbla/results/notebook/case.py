@@ -17,7 +17,7 @@ from mbla.results.listing.assessment_words import code_verdict
 from mbla.results.listing.mechanism_words import mechanism_summary
 from mbla.results.listing.verdict_words import reasons, verdict
 from mbla.results.notebook.display import View, case_picture
-from mbla.results.outcome import angle_of, associative_of, least_of, reaction_of, result_of, torsion_of
+from mbla.results.outcome import answer_of, associative_of, least_of, result_of, torsion_of
 from mbla.results.pictures.image import Picture
 from mbla.results.results import CaseResult, Results
 from mbla.solution.solution import Mechanics, Status
@@ -87,13 +87,12 @@ class Case:
     @property
     def angle(self) -> float:
         """Angle of collapse of a tilting table in degrees; nan for other load cases."""
-        return angle_of(self.record)
+        return answer_of(self.record, "angle")
 
     @property
     def reaction(self) -> float:
         """Least reaction of a support that gives way, force, or force times length; nan for other load cases."""
-        found = reaction_of(self.record)
-        return NAN if found is None else found
+        return answer_of(self.record, "reaction")
 
     @property
     def mechanics(self) -> Mechanics | None:

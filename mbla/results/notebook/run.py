@@ -132,8 +132,8 @@ class Run:
 
         Load factors of supports that give way and of tilting tables are of another kind and do not count.
         """
-        plain = [case for case in self.cases if case.record.load_case.settlement is None]
-        known = [case for case in plain if case.record.load_case.tilt is None and not math.isnan(case.load_factor)]
+        plain = [case for case in self.cases if case.record.load_case.question.group == "load_factor"]
+        known = [case for case in plain if not math.isnan(case.load_factor)]
         return min(known, key=lambda case: case.load_factor) if known else next(iter(self.cases), None)
 
     def picture(self, *, kind: str = "mechanism", format: str | None = None) -> Picture:

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from mbla.arrays import FloatArray
-from mbla.results.listing.answers import answer_head, standing_words
+from mbla.results.listing.answers import standing_words
 from mbla.results.listing.pushover import curve_words
 from mbla.results.listing.text import number
 from mbla.results.pictures.diagrams import dress, open_diagrams
@@ -139,9 +139,8 @@ def draw_curve(path: Path, scene: Scene, options: PictureOptions) -> None:
         if not curve:
             axes.set_axis_off()
             return
-        units, settles = scene.model.units, scene.case.load_case.settlement is not None
-        what = answer_head(scene.model, scene.case.load_case)
-        dress(page, axes, f"displacement of the {'support' if settles else 'control point'} [{units.length}]", what)
+        units, question = scene.model.units, scene.case.load_case.question
+        dress(page, axes, f"displacement of the {question.control} [{units.length}]", question.head(units))
         moved = np.array([row.displacement for row in curve])
         values = np.array([row.answer for row in curve])
         look = {"color": BLUE, "linestyle": "none", "marker": "o", "markersize": 3.5 * page.scale}

@@ -16,7 +16,9 @@ import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.model.fill import UPWARD
-from mbla.model.model import LoadCase, Model, Settlement, TravelPosition
+from mbla.model.model import LoadCase, Model
+from mbla.questions.reaction import Settlement
+from mbla.questions.travel import TravelPosition
 from mbla.results.pictures.marks import Mark, arrows, rings
 from mbla.results.pictures.page import CASES, DEAD_LOAD, FILL, LIVE_LOAD
 from mbla.results.pictures.scene import Scene

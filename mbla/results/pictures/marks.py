@@ -285,12 +285,12 @@ def drawn_resultants(scene: Scene) -> IntArray:
 
 def thrust_lines(scene: Scene, texts: Sequence[str]) -> list[Mark]:
     """Lines of thrust; of a force that is sought those of its other end as well, between which all others lie."""
-    objective, other = scene.case.load_case.objective, scene.other_end
-    if objective is None:
+    question, other = scene.case.load_case.question, scene.other_end
+    if question.collapses:
         return [thrust_line(scene, texts, "line of thrust", THRUST)]
-    found = [thrust_line(scene, texts, f"line of thrust, {objective.end} force", THRUST)]
-    if other is not None and other.case.load_case.objective is not None and other.thrust is not None:
-        name = f"line of thrust, {other.case.load_case.objective.end} force"
+    found = [thrust_line(scene, texts, f"line of thrust, {question.what}", THRUST)]
+    if other is not None and other.thrust is not None:
+        name = f"line of thrust, {other.case.load_case.question.what}"
         found.append(thrust_line(other, force_texts(other), name, OTHER_END, OTHER_LINE))
     return found
 

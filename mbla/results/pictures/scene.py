@@ -131,11 +131,7 @@ class Scene(RecordScene):
     def force_words(self) -> str:
         """What these forces are."""
         if self.mechanics is not None:
-            gives = self.case.load_case.settlement is not None
-            besides = "as the support gives way" if gives else "and live load times load factor"
-            if self.case.load_case.objective is not None:
-                return f"contact forces of the {self.case.load_case.objective.end} force; others may be possible"
-            return f"contact forces under dead load {besides}; others may be possible"
+            return f"{self.case.load_case.question.forces_drawn}; others may be possible"
         if self.forces is None:
             return "no contact forces to draw: none were found that carry the loads"
         if self.case.solution.lock is not None:

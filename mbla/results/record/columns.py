@@ -20,10 +20,9 @@ from mbla.results.collapse.mechanics import global_forces
 from mbla.results.collapse.rigid_parts import moving_blocks, moving_share
 from mbla.results.collapse.thrust import point_friction_use
 from mbla.results.outcome import (
-    angle_bounds,
-    angle_of,
+    answer_bounds,
+    answer_of,
     least_of,
-    result_of,
     torsion_of,
     ultimate_displacement,
 )
@@ -63,15 +62,19 @@ def numbers_of(texts: tuple[str, ...]) -> Values:
 # --- What no attribute of a scene says by itself --------------------------------------------------------------------
 
 
-def _reaction(case: CaseResult, *, turns: bool) -> float | None:
-    settlement, found = case.load_case.settlement, result_of(case)
-    if settlement is None or found is None or settlement.turns != turns:
-        return None
-    return settlement.reaction(found.load_factor)
-
-
 def _of_case(of: Callable[[CaseResult], Any]) -> Callable[[Scene, str], Any]:
     return lambda scene, _: None if scene.case is None else of(scene.case)
+
+
+def _answer(scene: Scene, name: str) -> float | None:
+    """The figure that a case asks for, in the column that its question has for it."""
+    asked = scene.case is not None and scene.case.load_case.question.column == name
+    return answer_of(scene.case) if asked and scene.case is not None else None
+
+
+def _bounds(scene: Scene, name: str) -> tuple[float, float] | None:
+    asked = scene.case is not None and f"{scene.case.load_case.question.column}_bounds" == name
+    return answer_bounds(scene.case) if asked and scene.case is not None else None
 
 
 def _of_parts(of: Callable[..., Any]) -> Callable[[Scene, str], Any]:
@@ -154,12 +157,10 @@ def _friction_use(scene: Scene, _: str) -> Values | None:
 FOUND: dict[str, Callable[[Scene, str], Any]] = {
     "least": _of_case(least_of),
     "torsion": _of_case(torsion_of),
-    "angle": _of_case(angle_of),
-    "angle_bounds": _of_case(lambda case: None if case.load_case.tilt is None else angle_bounds(case)),
+    **dict.fromkeys(("angle", "reaction_force", "reaction_moment"), _answer),
+    "angle_bounds": _bounds,
     "ultimate_displacement": _of_case(ultimate_displacement),
     **dict.fromkeys(("assessment_ratio", *(f"assessment_ratio_{name}" for name in LIMIT_STATES)), _assessed),
-    "reaction_force": _of_case(lambda case: _reaction(case, turns=False)),
-    "reaction_moment": _of_case(lambda case: _reaction(case, turns=True)),
     "figures": lambda scene, _: FIGURES.index(scene.figures),
     "moving_weight_share": _of_parts(moving_share),
     "moving_blocks": _of_parts(moving_blocks),

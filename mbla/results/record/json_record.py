@@ -15,16 +15,18 @@ from mbla.arrays import FloatArray
 from mbla.contacts.glue import solid_sizes
 from mbla.errors import Notice
 from mbla.model.model import Model
+from mbla.questions.force import Force
 from mbla.results.collapse.mechanics import reactions_of
 from mbla.results.collapse.ties import tie_rows
 from mbla.results.findings import remarks_of_run
-from mbla.results.force_range import ForceRange, end_bounds, end_value, force_ranges_of
+from mbla.results.force_range import ForceRange, end_value, force_ranges_of
 from mbla.results.hdf5.content import unverified_kinds
 from mbla.results.listing.answers import reaction_json
 from mbla.results.listing.figures import solver_json
 from mbla.results.listing.history_words import NOT_CHECKED, NOT_FOLLOWED, history_words, pushovers_words
 from mbla.results.outcome import (
     RESIDUALS,
+    answer_bounds,
     associative_of,
     best_iterate,
     dimension_of,
@@ -250,12 +252,12 @@ def powers_json(model: Model, case: CaseResult) -> dict[str, float | None] | Non
     None where there is no such mechanism.
     """
     associative = associative_of(case)
-    if associative is None or case.load_case.settlement is not None:
+    if associative is None or not case.load_case.question.multiplies:
         return None
     own = power(case.load_case.live_load, associative.mechanism)
     if not own > 0.0:
         return None
-    others = [one for one in model.load_cases if one.travel is None and one.settlement is None and one.tilt is None]
+    others = [one for one in model.load_cases if one.question.name == "load_factor"]
     return {one.name: number(power(one.live_load, associative.mechanism) / own) for one in others}
 
 
@@ -290,13 +292,13 @@ def series_json(model: Model, series: Series) -> dict[str, Any]:
 def force_range_json(found: ForceRange) -> dict[str, Any]:
     """Least and greatest value of a force; a value is null where there is none, and where forces have no limit."""
     ends: dict[str, Any] = {"least": None, "greatest": None} | {end: _end(case) for end, case in found.ends.items()}
-    objective = next(iter(found.ends.values())).load_case.objective
-    assert objective is not None  # what makes it a force
-    return {"name": found.name, "at": number(objective.at), "status": found.status.value, **ends}
+    question = next(iter(found.ends.values())).load_case.question
+    assert isinstance(question, Force)  # what makes it one
+    return {"name": found.name, "at": number(question.objective.at), "status": found.status.value, **ends}
 
 
 def _end(case: CaseResult) -> dict[str, Any]:
-    low, high = end_bounds(case)
+    low, high = answer_bounds(case)
     return {
         "case": case.load_case.name,
         "status": case.status.value,

@@ -16,8 +16,9 @@ import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
 from mbla.contacts.contacts import Contacts
-from mbla.model.model import Model, TravelPosition
+from mbla.model.model import Model
 from mbla.model.solids.blocks import Blocks
+from mbla.questions.travel import TravelPosition
 from mbla.results.collapse.interface_modes import sum_by_interface
 from mbla.results.collapse.mechanics import global_forces
 from mbla.results.collapse.motion import displacements_at

@@ -5,7 +5,7 @@ structure with the live load ``across`` has the tangent of the angle for its loa
 
 Else the loads of the angle t itself must be those at collapse. Of an angle t the load factor λ of the line from the
 level loads to those at t is found; λ < 1 says that t is too large. Associative flow: its mechanism gives a line that no
-load that can be borne passes (:mod:`mbla.solution.sequence.tilt_circle`), and the table leaves it at the next angle.
+load that can be borne passes (:mod:`mbla.questions.tilt`), and the table leaves it at the next angle.
 All these angles are too large, and they fall to the angle of collapse as Newton's method does, or in one step where a
 straight part of the limit decides. Other flow: λ = 1 is found by secants, as nothing bounds the loads that are borne.
 
@@ -20,9 +20,9 @@ from dataclasses import replace
 
 from mbla.assembly.assembly import Assembly
 from mbla.errors import Message
-from mbla.model.model import LoadCase, Tilt
+from mbla.model.model import LoadCase
+from mbla.questions.tilt import AT_ONCE, Tilt, chord, line_of, never_left
 from mbla.solution.sequence.solved_case import AnalysisSequence, SolvedCase
-from mbla.solution.sequence.tilt_circle import AT_ONCE, chord, line_of, never_left
 from mbla.solution.solution import Solution, Status
 from mbla.solution.verification.tilting_table import GOOD, only_direction_counts
 from mbla.solution.verification.verify import level_bound, verify
@@ -75,7 +75,7 @@ def tilt_angles(assembly: Assembly, load_case: LoadCase) -> AnalysisSequence:
 def next_angle(tilt: Tilt, found: SolvedCase) -> float:
     """Angle in radians that the associative mechanism bounds, inf where it bounds none."""
     bounding = found.solution.associative
-    return math.inf if bounding is None else line_of(tilt, bounding, bounding.load_factor).first_crossing()
+    return math.inf if bounding is None else line_of(tilt, bounding.mechanism, bounding.load_factor).first_crossing()
 
 
 def falls_at_once(tilt: Tilt, found: SolvedCase) -> bool:
@@ -153,7 +153,7 @@ class _Search:
             before, other = steps[-2]
             return angle + (1.0 - factor) * (angle - before) / (factor - other)
         own = answer.solution.mechanics
-        return math.inf if own is None else line_of(self.tilt, own, factor).first_crossing()
+        return math.inf if own is None else line_of(self.tilt, own.mechanism, factor).first_crossing()
 
     def before(self, found: SolvedCase) -> AnalysisSequence:
         """The same, or an earlier collapse where nothing proves that the table gets so far."""

@@ -9,8 +9,8 @@ import numpy as np
 from mbla.arrays import FloatArray
 from mbla.contacts.contacts import Contacts
 from mbla.errors import Message
-from mbla.model.model import LoadCase, Model, Tilt
-from mbla.solution.sequence.tilt_circle import AT_ONCE, chord, line_of, never_left
+from mbla.model.model import LoadCase, Model
+from mbla.questions.tilt import AT_ONCE, Tilt, chord, line_of, never_left
 from mbla.solution.solution import WITH_VALUE, Checks, Solution
 
 SAME_LOADS = 1e-6
@@ -89,7 +89,7 @@ def found_tangent(model: Model, contacts: Contacts, tilt: Tilt, live_load: Float
     found = solution.associative
     if found is None or solution.status not in WITH_VALUE or not leads_across(tilt, live_load):
         return tilt.tangent
-    at_once = line_of(tilt, found, found.load_factor).first_crossing() <= AT_ONCE
+    at_once = line_of(tilt, found.mechanism, found.load_factor).first_crossing() <= AT_ONCE
     return at_once or only_direction_counts(model, contacts, tilt)
 
 

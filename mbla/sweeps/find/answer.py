@@ -102,12 +102,11 @@ def _case(model: Model, question: Question) -> LoadCase:
     """Raises UsageError for one that has several answers, or another than is looked for."""
     cases = select_cases(model, (question.load_case,))
     name, case = question.load_case, cases[0]
-    if case.settlement is not None:
-        words = f"{name}: its answer is a force, which is no target; choose another load case, or mbla sweep"
-    elif len(cases) > 1:
+    against = case.question.no_target
+    if len(cases) > 1 and not against:
         words = f"{name} travels: choose one of its positions, such as {case.name}"
-    elif case.tilt is not None and question.kind != "stands":
-        words = f"{name}: a tilting table has an angle for its answer, no load factor; mbla sweep gives that for values"
+    elif against and (question.kind != "stands" or not case.question.multiplies):
+        words = f"{name}: {against}"
     else:
         return case
     raise UsageError("find-option", f"--case {words}")

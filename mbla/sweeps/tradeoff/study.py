@@ -18,9 +18,12 @@ from mbla.errors import LimitError, SolverError
 from mbla.model import build_model
 from mbla.model.model import LoadCase, Model, select_cases
 from mbla.process.run_options import RunOptions
-from mbla.results.listing.answers import answer_head, status_name
+from mbla.questions.angle import Angle
+from mbla.questions.load_factor import LoadFactor
+from mbla.questions.reaction import Reaction
+from mbla.results.listing.answers import status_name
 from mbla.results.listing.text import number, sentence, small, table
-from mbla.results.outcome import ZERO, least_factor
+from mbla.results.outcome import least_answer
 from mbla.results.pictures.diagrams import dress, open_diagrams
 from mbla.results.pictures.options import PictureOptions
 from mbla.results.pictures.page import BLUE, GHOST, VERMILION, WARNING
@@ -43,12 +46,8 @@ RESIDUALS = (
     *("slip_residual", "power_balance"),
 )
 """what says how badly forces and velocities fit the joint law"""
-FACTOR = ("load_factor", "static_bound", "kinematic_bound")
-ANGLE = ("angle", "angle_bounds.0", "angle_bounds.1")
-REACTION = ("reaction.value", "reaction.lower_bound", "reaction.upper_bound")
-"""columns of the answer and its bounds, by what a load case asks for"""
 RESULTS = (
-    *("status", "verified", "flow_rule", *FACTOR, *ANGLE, *REACTION),
+    *("status", "verified", "flow_rule", *LoadFactor.paths, *Angle.paths, *Reaction.paths),
     *("gap", *RESIDUALS, "iterations", "time.total", "time.solver"),
 )
 SETTING = SweepColumn("setting", "", "name of the setting", "text", "parameter", "setting")
@@ -125,10 +124,7 @@ def _trade(model: Model, case: LoadCase, rungs: Sequence[Rung], results: SweepTa
     def texts(path: str) -> np.ndarray[Any, np.dtype[Any]]:
         return np.array([value or "" for value in results[columns[path].name].tolist()], dtype=object)
 
-    if case.settlement is not None:
-        paths, least = REACTION, ZERO * case.settlement.unit
-    else:
-        paths, least = (FACTOR, least_factor(model, case)) if case.tilt is None else (ANGLE, 0.0)
+    paths, least = case.question.paths, least_answer(model, case)
     answer, status = figures(paths[0]), texts("status")
     residual = np.fmax.reduce([figures(path) for path in RESIDUALS])
     accuracy = np.nan_to_num(np.where(texts("flow_rule") == "associative", figures("gap"), residual))
@@ -137,7 +133,7 @@ def _trade(model: Model, case: LoadCase, rungs: Sequence[Rung], results: SweepTa
     verified = answered | (status == Status.APPROXIMATE.value) & (results["state"] == DONE)
     shown = {"lower": figures(paths[1]), "upper": figures(paths[2]), "resid.": residual}
     arrays = (status, verified, answer, accuracy, figures("time.total"))
-    return trade_of(case.deck_name, answer_head(model, case), rungs, *arrays, least, shown)
+    return trade_of(case.deck_name, case.question.head(model.units), rungs, *arrays, least, shown)
 
 
 # --- words ------------------------------------------------------------------------------------------------------------

@@ -9,7 +9,8 @@ import pytest
 
 from mbla.errors import DeckError
 from mbla.model import build_model
-from mbla.model.model import Model, Tilt
+from mbla.model.model import Model
+from mbla.questions.tilt import Tilt
 from tests.model.shapes import deck
 
 BLOCKS = ["box: {group: base, material: stone, min: [0, 0, 0], max: [1, 1, 1]}"]

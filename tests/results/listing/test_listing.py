@@ -10,7 +10,8 @@ import numpy as np
 import pytest
 
 import mbla
-from mbla.model.model import Settlement, Tilt
+from mbla.questions.reaction import Settlement
+from mbla.questions.tilt import Tilt
 from mbla.results.listing.answers import answer_columns
 from mbla.results.listing.listing import listing
 from mbla.results.listing.summary import summary_lines

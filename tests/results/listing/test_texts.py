@@ -16,7 +16,8 @@ import pytest
 from mbla.assembly.assembly import Assembly
 from mbla.codes.assess import assessment_of
 from mbla.errors import Message
-from mbla.model.model import Settlement, Tilt
+from mbla.questions.reaction import Settlement
+from mbla.questions.tilt import Tilt
 from mbla.results.listing.history_words import path_words
 from mbla.results.listing.listing import case_sections, listing, verification_lines
 from mbla.results.listing.model_words import check_listing

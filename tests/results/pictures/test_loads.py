@@ -7,7 +7,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from mbla.model.model import Settlement, TravelPosition
+from mbla.questions.reaction import Settlement
+from mbla.questions.travel import TravelPosition
 from mbla.results.pictures.loads import MANY, arrow_steps, live_marks, marks_of_load, shown_loads
 from mbla.results.pictures.marks import Mark
 from mbla.results.pictures.options import PictureOptions

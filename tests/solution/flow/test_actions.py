@@ -9,11 +9,11 @@ import numpy as np
 import pytest
 
 from mbla.deck import read_deck
+from mbla.questions.tilt import chord
 from mbla.solution.associative.solve_associative import AssociativeResult, solve_associative
 from mbla.solution.flow.path_of_part import path_of_part
 from mbla.solution.flow.path_record import Stop
 from mbla.solution.flow.settings import PathSettings
-from mbla.solution.sequence.tilt_circle import chord
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Status
 from tests.decks.folder import BENCHMARKS, PATHS

@@ -9,7 +9,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from mbla.model.model import LoadCase, Tilt
+from mbla.model.model import LoadCase
+from mbla.questions.tilt import Tilt
 from mbla.solution.solution import Status
 from mbla.solution.verification.tilting_table import never_failures, tilt_failures
 from tests.line import Line

@@ -1,4 +1,4 @@
-"""The unit circle of a tilting table, and the lines that bound the loads it can bear.
+"""A tilting table: its loads, the unit circle that they go along, and the lines that bound those it can bear.
 
 Loads fixed + a turning + b across make a plane (a, b); the table goes along the circle (cos t, sin t) from (1, 0). The
 loads that can be borne are a convex set of the plane. A mechanism u with the load factor λ of the line from (1, 0) to
@@ -11,9 +11,9 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+import numpy as np
+
 from mbla.arrays import FloatArray
-from mbla.model.model import Tilt
-from mbla.solution.solution import Mechanics
 
 FULL_TURN = 2.0 * math.pi
 AT_ONCE = 1e-8
@@ -22,6 +22,35 @@ CLOSE = 1e-9
 """share of the radius by which a side of the proof may cut into the circle: what STEEPEST takes off it, and rounding"""
 STEEPEST = 1e6
 """multiple of the load across that stands for every multiple; a right angle to 1e-6"""
+
+
+@dataclass(frozen=True)
+class Tilt:
+    """Loads on a tilting table, fixed + cos(angle) turning + sin(angle) across, all (n_blocks, 6).
+
+    axis    : (3,) unit, about which the table turns by the right hand
+    fixed   : dead loads that keep their direction in the structure, and what of gravity lies along the axis
+    turning : gravity across the axis while the table is level
+    across  : the same after a turn of 90 degrees
+    angle   : of collapse in degrees; nan where it is not known, or where the load factor is its tangent
+    tangent : the live load is ``across`` alone and the load factor the tangent of the angle, which is exact where only
+              the direction of the load counts; else the live load leads from the level table to the angle, and the
+              load factor is 1 there
+    upright : proved multiple of ``across`` that the level table bears, nan where nothing is known
+    """
+
+    axis: FloatArray
+    fixed: FloatArray
+    turning: FloatArray
+    across: FloatArray
+    angle: float = np.nan
+    tangent: bool = True
+    upright: float = np.nan
+
+    def loads_at(self, angle: float) -> FloatArray:
+        """Loads after a turn by an angle in degrees, (n_blocks, 6)."""
+        turn = np.deg2rad(angle)
+        return np.asarray(self.fixed + np.cos(turn) * self.turning + np.sin(turn) * self.across)
 
 
 @dataclass(frozen=True)
@@ -41,10 +70,10 @@ class Line:
         return 0.0 if FULL_TURN - angle < AT_ONCE else angle
 
 
-def line_of(tilt: Tilt, mechanics: Mechanics, load_factor: float) -> Line:
-    """The line of a mechanism; ``load_factor`` the one that it is good for."""
-    p = float((tilt.turning * mechanics.mechanism).sum())
-    q = float((tilt.across * mechanics.mechanism).sum())
+def line_of(tilt: Tilt, mechanism: FloatArray, load_factor: float) -> Line:
+    """The line of a mechanism, (n_blocks, 6); ``load_factor`` the one that it is good for."""
+    p = float((tilt.turning * mechanism).sum())
+    q = float((tilt.across * mechanism).sum())
     return Line(p, q, p + load_factor)
 
 

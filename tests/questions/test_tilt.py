@@ -6,7 +6,7 @@ import math
 
 import pytest
 
-from mbla.solution.sequence.tilt_circle import Line, angle_above, never_left
+from mbla.questions.tilt import Line, angle_above, never_left
 
 
 @pytest.mark.parametrize("mu", [0.0, 0.3, 1.0, 40.0])
