@@ -6,7 +6,7 @@ A kind registers at the foot of its own file; the type of the mapping, with its 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, TypeVar
 
 from pydantic import create_model
@@ -14,7 +14,7 @@ from pydantic import create_model
 from mbla.deck.section import Section
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True)
 class Kind:
     """A kind of thing.
 
@@ -25,7 +25,7 @@ class Kind:
 
     name: str
     section: type[Section]
-    after: str = ""
+    after: str = field(default="", kw_only=True)
 
 
 K = TypeVar("K", bound=Kind)

@@ -1,7 +1,8 @@
 """Kinds of items of `blocks`: a file each, with type, rules, geometry and facts, that registers its kind at its foot.
 
 Whoever asks for one of them gets all: every file of this folder is imported with it. What kinds share is in ``item``,
-``generated``, ``amounts`` and in folders.
+``generated``, ``amounts`` and in folders; of folders, what makes the geometry of few kinds is imported when a deck has
+one of them.
 """
 
 from importlib import import_module

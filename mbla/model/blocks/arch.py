@@ -229,11 +229,11 @@ def amount(item: ArchItem) -> tuple[float, str]:
 
 register_item(
     ItemKind(
-        name="arch",
-        section=ArchItem,
+        "arch",
+        ArchItem,
+        generate,
+        amount,
         after="walls",
-        generate=generate,
-        amount=amount,
         positions=("voussoir", "ring", "unit", "course"),
         groups=(SPRINGERS,),
     )

@@ -99,11 +99,11 @@ def amount(item: BarrelVaultItem) -> tuple[float, str]:
 
 register_item(
     ItemKind(
-        name="barrel_vault",
-        section=BarrelVaultItem,
+        "barrel_vault",
+        BarrelVaultItem,
+        generate,
+        amount,
         after="dome",
-        generate=generate,
-        amount=amount,
         positions=("course", "unit"),
         groups=(SPRINGERS,),
     )

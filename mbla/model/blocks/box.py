@@ -34,4 +34,4 @@ def generate(item: BoxItem, site: Site) -> Generated:
     return Generated((Part(cuboids(np.array([item.min]), np.array([item.max]))),))
 
 
-register_item(ItemKind(name="box", section=BoxItem, generate=generate))
+register_item(ItemKind("box", BoxItem, generate))

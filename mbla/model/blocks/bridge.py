@@ -16,8 +16,6 @@ from pydantic import Discriminator, Field, Tag
 from mbla.deck.quantities import Count, PositiveLength, SideAngle
 from mbla.deck.section import ROUNDING, Section, given, rule
 from mbla.errors import Finding
-from mbla.model.blocks.bridges.arches import arches, frame_of, supports
-from mbla.model.blocks.bridges.masonry import masonry
 from mbla.model.blocks.curves.shape_keys import CurveShape, range_of_rise, shape_keys
 from mbla.model.blocks.generated import Generated, Site
 from mbla.model.blocks.item import Item
@@ -173,6 +171,9 @@ def generate(item: BridgeItem, site: Site) -> Generated:
 
     Raises ItemRefused where voussoirs are too few or cross, or springing joints do not fit piers and abutments.
     """
+    from mbla.model.blocks.bridges.arches import arches, frame_of, supports
+    from mbla.model.blocks.bridges.masonry import masonry
+
     frame = frame_of(item)
     parts = [*arches(item, frame), *supports(item, frame)]
     if item.spandrels != "none":
@@ -199,11 +200,11 @@ def amount(item: BridgeItem) -> tuple[float, str]:
 
 register_item(
     ItemKind(
-        name="bridge",
-        section=BridgeItem,
+        "bridge",
+        BridgeItem,
+        generate,
+        amount,
         after="trilithon",
-        generate=generate,
-        amount=amount,
         positions=("span", "voussoir", "ring", "course", "unit", "leaf"),
     )
 )

@@ -166,6 +166,4 @@ def amount(item: ColumnItem) -> tuple[float, str]:
     return (len(item.drum_heights or ()) + (item.drums or 0)) * item.sides, "sides"
 
 
-register_item(
-    ItemKind(name="column", section=ColumnItem, after="table", generate=generate, amount=amount, positions=("drum",))
-)
+register_item(ItemKind("column", ColumnItem, generate, amount, after="table", positions=("drum",)))

@@ -129,11 +129,11 @@ def amount(item: CrossVaultItem) -> tuple[float, str]:
 
 register_item(
     ItemKind(
-        name="cross_vault",
-        section=CrossVaultItem,
+        "cross_vault",
+        CrossVaultItem,
+        generate,
+        amount,
         after="barrel_vault",
-        generate=generate,
-        amount=amount,
         positions=("course", "span", "unit", "segment"),
         groups=(SPRINGERS,),
     )

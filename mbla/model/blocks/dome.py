@@ -268,12 +268,6 @@ def amount(item: DomeItem) -> tuple[float, str]:
 
 register_item(
     ItemKind(
-        name="dome",
-        section=DomeItem,
-        after="bridge",
-        generate=generate,
-        amount=amount,
-        positions=("ring", "segment", "course"),
-        groups=(SPRINGERS,),
+        "dome", DomeItem, generate, amount, after="bridge", positions=("ring", "segment", "course"), groups=(SPRINGERS,)
     )
 )

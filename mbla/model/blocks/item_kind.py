@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import KW_ONLY, dataclass
 from typing import Any
 
 from mbla.deck.kinds import Kind, register
@@ -33,7 +33,7 @@ class SideGroup:
     values: tuple[str, ...]
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True)
 class ItemKind(Kind):
     """A kind of items.
 
@@ -51,6 +51,7 @@ class ItemKind(Kind):
 
     generate: Generator
     amount: Callable[[Any], tuple[float, str]] = one_unit
+    _: KW_ONLY
     positions: tuple[str, ...] = ()
     groups: tuple[SideGroup, ...] = ()
     materials: tuple[str, ...] = ()

@@ -93,14 +93,4 @@ def place(face: int | None) -> KeyPath:
     return ("file",)
 
 
-register_item(
-    ItemKind(
-        name="mesh",
-        section=MeshItem,
-        after="arch",
-        generate=generate,
-        files=("file",),
-        flat_face=flat_face,
-        place=place,
-    )
-)
+register_item(ItemKind("mesh", MeshItem, generate, after="arch", files=("file",), flat_face=flat_face, place=place))

@@ -96,11 +96,11 @@ def amount(item: PavilionVaultItem) -> tuple[float, str]:
 
 register_item(
     ItemKind(
-        name="pavilion_vault",
-        section=PavilionVaultItem,
+        "pavilion_vault",
+        PavilionVaultItem,
+        generate,
+        amount,
         after="cross_vault",
-        generate=generate,
-        amount=amount,
         positions=("course", "span", "unit", "segment"),
         groups=(SPRINGERS,),
     )

@@ -50,4 +50,4 @@ def place(face: int | None) -> KeyPath:
     return () if face is None else ("faces", face)
 
 
-register_item(ItemKind(name="polyhedron", section=PolyhedronItem, after="box", generate=generate, place=place))
+register_item(ItemKind("polyhedron", PolyhedronItem, generate, after="box", place=place))

@@ -163,12 +163,6 @@ def amount(item: SpiralStairItem) -> tuple[float, str]:
 
 register_item(
     ItemKind(
-        name="spiral_stair",
-        section=SpiralStairItem,
-        after="pavilion_vault",
-        generate=generate,
-        amount=amount,
-        positions=("tread",),
-        groups=(WALL,),
+        "spiral_stair", SpiralStairItem, generate, amount, after="pavilion_vault", positions=("tread",), groups=(WALL,)
     )
 )

@@ -96,6 +96,4 @@ def amount(item: StackItem) -> tuple[float, str]:
     return item.count, "count"
 
 
-register_item(
-    ItemKind(name="stack", section=StackItem, after="column", generate=generate, amount=amount, positions=("drum",))
-)
+register_item(ItemKind("stack", StackItem, generate, amount, after="column", positions=("drum",)))

@@ -42,13 +42,4 @@ def flat_face(member: str, more: bool) -> str:
     return f"leave_out: [{member}{', ...' if more else ''}], and a surface in supports where it is ground"
 
 
-register_item(
-    ItemKind(
-        name="table",
-        section=TableItem,
-        after="mesh",
-        generate=generate,
-        files=("vertices", "faces"),
-        flat_face=flat_face,
-    )
-)
+register_item(ItemKind("table", TableItem, generate, after="mesh", files=("vertices", "faces"), flat_face=flat_face))

@@ -54,4 +54,4 @@ def generate(item: TrilithonItem, site: Site) -> Generated:
     )
 
 
-register_item(ItemKind(name="trilithon", section=TrilithonItem, after="stack", generate=generate, positions=("unit",)))
+register_item(ItemKind("trilithon", TrilithonItem, generate, after="stack", positions=("unit",)))

@@ -23,8 +23,6 @@ from mbla.model.blocks.masonry.masonry import (
     check_opening,
     units_of_walls,
 )
-from mbla.model.blocks.masonry.plan import Line
-from mbla.model.blocks.masonry.walls import Walls, build_walls
 
 
 class WallItem(Masonry):
@@ -57,6 +55,9 @@ def generate(item: WallItem, site: Site) -> Generated:
         for openings off the bed joints, lintels and arches without support, buttresses across openings, or where
         nothing is left of the wall
     """
+    from mbla.model.blocks.masonry.plan import Line
+    from mbla.model.blocks.masonry.walls import Walls, build_walls
+
     thickness = item.leaves * item.unit[1]
     line = Line(np.zeros(2), np.array([1.0, 0.0]), item.length, 0.0, 0.0, 0.0, thickness, ())
     walls = Walls(
@@ -76,11 +77,11 @@ def amount(item: WallItem) -> tuple[float, str]:
 
 register_item(
     ItemKind(
-        name="wall",
-        section=WallItem,
+        "wall",
+        WallItem,
+        generate,
+        amount,
         after="polyhedron",
-        generate=generate,
-        amount=amount,
         positions=("course", "unit", "leaf", "voussoir"),
         materials=MATERIALS,
     )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 from pydantic import Field
@@ -25,8 +25,9 @@ from mbla.model.blocks.masonry.masonry import (
     check_opening,
     units_of_walls,
 )
-from mbla.model.blocks.masonry.plan import Line, line_along, reaching_through, turned_corners
-from mbla.model.blocks.masonry.walls import Walls, build_walls
+
+if TYPE_CHECKING:
+    from mbla.model.blocks.masonry.plan import Line
 
 
 class CrossWall(Section):
@@ -147,6 +148,8 @@ def generate(item: WallsItem, site: Site) -> Generated:
         for walls that meet in part or lie on each other, openings off the bed joints or in corners, lintels and arches
         without support, buttresses across openings, gables that meet
     """
+    from mbla.model.blocks.masonry.walls import Walls, build_walls
+
     walls = Walls(
         item,
         lines_of(item),
@@ -160,6 +163,8 @@ def generate(item: WallsItem, site: Site) -> Generated:
 
 def lines_of(item: WallsItem) -> list[Line]:
     """Walls of the main line, then the cross walls, ends still free where they meet other walls."""
+    from mbla.model.blocks.masonry.plan import line_along, reaching_through, turned_corners
+
     thickness = item.leaves * item.unit[1]
     middle = {"left": 0.5, "centre": 0.0, "right": -0.5}[item.side] * thickness
     every = [
@@ -180,11 +185,11 @@ def amount(item: WallsItem) -> tuple[float, str]:
 
 register_item(
     ItemKind(
-        name="walls",
-        section=WallsItem,
+        "walls",
+        WallsItem,
+        generate,
+        amount,
         after="wall",
-        generate=generate,
-        amount=amount,
         positions=("segment", "course", "unit", "leaf", "voussoir"),
         materials=MATERIALS,
     )

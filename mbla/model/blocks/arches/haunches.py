@@ -16,7 +16,6 @@ from mbla.deck.quantities import Length, PositiveLength
 from mbla.deck.section import Section
 from mbla.errors import Finding
 from mbla.model.blocks.arches.sections import ArchSection, springing_joints
-from mbla.model.blocks.arches.spandrels import Masonry, bed_levels, build_outline, coursed
 from mbla.model.blocks.generated import GroundPart, ItemRefused, Part
 from mbla.model.solids.polyhedra import prisms
 
@@ -61,6 +60,8 @@ def haunches(
 
     Raises ItemRefused where springings lean inwards, the top lies below them, or units are too large.
     """
+    from mbla.model.blocks.arches.spandrels import Masonry, bed_levels, build_outline, coursed
+
     joints = springing_joints(section)
     if any(joint.rise < 0 for joint in joints):
         words = "haunches need springing joints that are level or rise outwards: at most half a circle"
