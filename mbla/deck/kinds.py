@@ -9,9 +9,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any, TypeVar
 
-from pydantic import create_model
-
-from mbla.deck.section import Section
+from mbla.deck.section import Section, with_keys
 
 
 @dataclass(frozen=True)
@@ -75,11 +73,4 @@ def in_order(kinds: Mapping[str, K]) -> list[K]:
 
 def keys_of(kinds: Mapping[str, Kind]) -> Callable[[type[C]], type[C]]:
     """A section with a key for each of some kinds."""
-
-    def with_keys(section: type[C]) -> type[C]:
-        fields: dict[str, Any] = {kind.name: (kind.section | None, None) for kind in in_order(kinds)}
-        return create_model(
-            section.__name__, __base__=section, __module__=section.__module__, __doc__=section.__doc__, **fields
-        )
-
-    return with_keys
+    return with_keys({kind.name: (kind.section | None, None) for kind in in_order(kinds)})

@@ -6,7 +6,7 @@ A rule gets a section whose own keys are all valid and yields what is wrong belo
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, TypeAlias, TypeVar
 
@@ -16,6 +16,7 @@ from pydantic import (
     ModelWrapValidatorHandler,
     ValidationError,
     ValidationInfo,
+    create_model,
     model_validator,
 )
 from pydantic_core import PydanticCustomError
@@ -61,6 +62,18 @@ def exactly_one_of(*keys: str) -> Callable[[type[Model]], type[Model]]:
         return section
 
     return register
+
+
+def with_keys(keys: Mapping[str, tuple[Any, Any]]) -> Callable[[type[Model]], type[Model]]:
+    """A section with further keys: by attribute, the type of the value, and default or field."""
+
+    def extended(section: type[Model]) -> type[Model]:
+        fields: dict[str, Any] = dict(keys)
+        return create_model(
+            section.__name__, __base__=section, __module__=section.__module__, __doc__=section.__doc__, **fields
+        )
+
+    return extended
 
 
 class TooManyWrongError(Exception):

@@ -135,8 +135,8 @@ def _generate(deck: Deck, block_item: BlockItem, path: KeyPath) -> Generated:
     with np.errstate(over="ignore", invalid="ignore"):  # coordinates that are not finite are refused by block
         kind = block_item.facts
         generated = kind.generate(item, site)
-        positions = {name for part in generated.parts for name in part.labels}
-        assert positions <= {*kind.positions}, f"{kind.name} gives {positions - {*kind.positions}}"
+        given = {name for part in generated.parts for name in part.labels}
+        assert given <= {position.name for position in kind.positions}, f"{kind.name} gives {given}"
         transform = build_transform(item.transform)
         return generated if transform is None else transform_item(generated, transform)
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from mbla.arrays import BoolArray, IntArray
 from mbla.deck.sections.contacts import ContactOverride
-from mbla.deck.sections.selectors import GROUND, POSITIONS, Selector, SelectorTerm
+from mbla.deck.sections.selectors import GROUND, OUTER_FIRST, Selector, SelectorTerm
 from mbla.deck.suggestions import unknown
 from mbla.deck.text.tree import KeyPath
 from mbla.errors import Fault, Finding, Message, Notice
@@ -114,11 +114,6 @@ def _of_member(term: SelectorTerm, rows: IntArray, blocks: Blocks) -> IntArray |
     if not known:
         return Finding("empty-selector", "these blocks have no members: leave it out", "member")
     return Finding("unknown-name", unknown("member", term.member, known, "these blocks have"), "member")
-
-
-OUTER_FIRST = ("copy", "span", "segment", "leaf", "ring", "course", "tread", "drum", "unit", "voussoir")
-"""the positions, those of parts before those of what is in them"""
-assert sorted(OUTER_FIRST) == sorted(POSITIONS)
 
 
 def _at_positions(term: SelectorTerm, rows: IntArray, blocks: Blocks) -> IntArray | Finding:

@@ -7,24 +7,20 @@ from typing import Annotated, TypeAlias
 
 from pydantic import ConfigDict, Discriminator, Field, Tag
 
+from mbla.deck.kinds import in_order
+from mbla.deck.positions import COPY, SHARED
 from mbla.deck.quantities import Box, Index, Name, Position
-from mbla.deck.section import Section, given, rule, shape
+from mbla.deck.section import Section, given, rule, shape, with_keys
+from mbla.deck.sections.blocks import ITEM_KINDS
 from mbla.deck.suggestions import listed
 from mbla.errors import Finding
 
-POSITIONS = (
-    "course",
-    "unit",
-    "leaf",
-    "voussoir",
-    "ring",
-    "segment",
-    "tread",
-    "drum",
-    "span",
-    "copy",
-)
-"""Names of positions that items give their blocks, counted from 0; each is a key of selectors."""
+GIVEN = tuple(dict.fromkeys((*SHARED, *(each for kind in in_order(ITEM_KINDS) for each in kind.positions), COPY)))
+"""positions that items give their blocks"""
+POSITIONS = tuple(position.name for position in GIVEN)
+"""their names, each a key of selectors"""
+OUTER_FIRST = tuple(position.name for position in sorted(GIVEN, key=lambda position: position.depth))
+"""the names, those of parts before those of what is in them"""
 GROUND = "ground"
 """name that stands for ground planes in `contacts.overrides`, for what does not move in `ties`"""
 ONE_OF = ("group", "box")
@@ -35,6 +31,15 @@ PositionRange: TypeAlias = Annotated[
 ]
 
 
+@with_keys(
+    {
+        "copy_" if each is COPY else each.name: (
+            PositionRange | None,
+            Field(None, alias="copy" if each is COPY else None, description=each.words),
+        )
+        for each in GIVEN
+    }
+)
 class SelectorTerm(Section):
     """Blocks of a group, or blocks whose centroid lies in a box; every further key narrows the choice.
 
@@ -48,20 +53,10 @@ class SelectorTerm(Section):
     box: Box | None = Field(None, description="least and greatest coordinates; centroids inside count")
     index: Index | None = Field(None, description="which block of the group, from 0 in order of creation")
     member: Name | None = Field(None, description="part of a composite item, `lintel` for example")
-    course: PositionRange | None = Field(None, description="course of a wall or vault, from the bottom")
-    unit: PositionRange | None = Field(None, description="position along its course")
-    leaf: PositionRange | None = Field(None, description="leaf of a wall, from its front; headers have none")
-    voussoir: PositionRange | None = Field(None, description="position along an arch")
-    ring: PositionRange | None = Field(None, description="ring of a dome, from the springing; of an arch, from inside")
-    segment: PositionRange | None = Field(None, description="position around a ring; wall of a plan")
-    tread: PositionRange | None = Field(None, description="step of a stair, from the bottom")
-    drum: PositionRange | None = Field(None, description="position in a column or stack, from the bottom")
-    span: PositionRange | None = Field(None, description="span of a bridge, or web of a vault")
-    copy_: PositionRange | None = Field(None, alias="copy", description="repetition of the item")
 
     def position(self, name: str) -> int | tuple[int, int] | None:
         """What is asked of a position, by its name."""
-        asked: int | tuple[int, int] | None = getattr(self, "copy_" if name == "copy" else name)
+        asked: int | tuple[int, int] | None = getattr(self, "copy_" if name == COPY.name else name)
         return asked
 
 

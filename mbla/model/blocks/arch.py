@@ -15,6 +15,7 @@ import numpy as np
 from pydantic import Field
 
 from mbla.arrays import FloatArray, IntArray
+from mbla.deck.positions import COURSE, RING, UNIT, VOUSSOIR
 from mbla.deck.quantities import Count, EmbraceAngle, PlanePoint, PositiveLength, SideAngle, SkewAngle
 from mbla.deck.section import ROUNDING, Section, rule
 from mbla.errors import Finding
@@ -234,7 +235,7 @@ register_item(
         generate,
         amount,
         after="walls",
-        positions=("voussoir", "ring", "unit", "course"),
+        positions=(VOUSSOIR, RING, UNIT, COURSE),
         groups=(SPRINGERS,),
     )
 )

@@ -12,6 +12,7 @@ import numpy as np
 from pydantic import Field
 
 from mbla.arrays import FloatArray
+from mbla.deck.positions import COURSE, UNIT
 from mbla.deck.quantities import PositiveLength
 from mbla.deck.section import rule
 from mbla.errors import Finding
@@ -104,7 +105,7 @@ register_item(
         generate,
         amount,
         after="dome",
-        positions=("course", "unit"),
+        positions=(COURSE, UNIT),
         groups=(SPRINGERS,),
     )
 )

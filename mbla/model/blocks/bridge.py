@@ -13,6 +13,7 @@ from typing import Annotated, Literal, TypeAlias
 
 from pydantic import Discriminator, Field, Tag
 
+from mbla.deck.positions import COURSE, LEAF, RING, SPAN, UNIT, VOUSSOIR
 from mbla.deck.quantities import Count, PositiveLength, SideAngle
 from mbla.deck.section import ROUNDING, Section, given, rule
 from mbla.errors import Finding
@@ -205,6 +206,6 @@ register_item(
         generate,
         amount,
         after="trilithon",
-        positions=("span", "voussoir", "ring", "course", "unit", "leaf"),
+        positions=(SPAN, VOUSSOIR, RING, COURSE, UNIT, LEAF),
     )
 )

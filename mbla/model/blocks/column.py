@@ -21,6 +21,7 @@ import numpy as np
 from pydantic import Field
 
 from mbla.arrays import FloatArray
+from mbla.deck.positions import DRUM
 from mbla.deck.quantities import Count, Integer, NonNegativeLength, PositiveLength
 from mbla.deck.section import Section, exactly_one_of, given, rule
 from mbla.errors import Finding
@@ -166,4 +167,4 @@ def amount(item: ColumnItem) -> tuple[float, str]:
     return (len(item.drum_heights or ()) + (item.drums or 0)) * item.sides, "sides"
 
 
-register_item(ItemKind("column", ColumnItem, generate, amount, after="table", positions=("drum",)))
+register_item(ItemKind("column", ColumnItem, generate, amount, after="table", positions=(DRUM,)))

@@ -8,6 +8,7 @@ import numpy as np
 from pydantic import Field
 
 from mbla.arrays import FloatArray
+from mbla.deck.positions import COURSE, SEGMENT, SPAN, UNIT
 from mbla.deck.quantities import PositiveLength
 from mbla.deck.section import rule
 from mbla.errors import Finding
@@ -134,7 +135,7 @@ register_item(
         generate,
         amount,
         after="barrel_vault",
-        positions=("course", "span", "unit", "segment"),
+        positions=(COURSE, SPAN, UNIT, SEGMENT),
         groups=(SPRINGERS,),
     )
 )

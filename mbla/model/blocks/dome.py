@@ -29,6 +29,7 @@ import numpy as np
 from pydantic import Field
 
 from mbla.arrays import FloatArray
+from mbla.deck.positions import COURSE, RING, SEGMENT
 from mbla.deck.quantities import Count, EmbraceAngle, Integer, PositiveLength
 from mbla.deck.section import Section, given, one_of, rule
 from mbla.errors import Finding
@@ -267,7 +268,5 @@ def amount(item: DomeItem) -> tuple[float, str]:
 
 
 register_item(
-    ItemKind(
-        "dome", DomeItem, generate, amount, after="bridge", positions=("ring", "segment", "course"), groups=(SPRINGERS,)
-    )
+    ItemKind("dome", DomeItem, generate, amount, after="bridge", positions=(RING, SEGMENT, COURSE), groups=(SPRINGERS,))
 )

@@ -21,8 +21,7 @@ class Part:
     """Polyhedra of one group: the item's own, or the item's with ``suffix`` after it; ``fixed`` ones do not move.
 
     member : part of a composite item, such as "lintel": of all the blocks, or of each; empty where there is none
-    labels : (n,) positions of the blocks by name, from 0; names are those of ``mbla.deck.sections.selectors.POSITIONS``
-             ("copy" is set by the repetition of items)
+    labels : (n,) positions of the blocks by name, from 0; those that the kind says it gives
     material : name of the material, where it is not that of the item
     """
 

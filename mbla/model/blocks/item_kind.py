@@ -7,6 +7,7 @@ from dataclasses import KW_ONLY, dataclass
 from typing import Any
 
 from mbla.deck.kinds import Kind, register
+from mbla.deck.positions import BlockPosition
 from mbla.deck.text.tree import KeyPath
 from mbla.model.blocks.generated import Generator
 
@@ -40,7 +41,7 @@ class ItemKind(Kind):
     generate  : turns an item into polyhedra in its own coordinates
     amount    : about how many units one copy of an item makes, known before it is made, and the key that matters most;
                 where blocks have many facets each of these counts
-    positions : that it gives its blocks; of those that selectors know
+    positions : that it gives its blocks
     groups    : that it may make beside its own
     materials : key paths below the item that name materials, besides its own; ``#`` stands for every item of a list
     files     : keys that name files; blocks from files have names of their own
@@ -52,7 +53,7 @@ class ItemKind(Kind):
     generate: Generator
     amount: Callable[[Any], tuple[float, str]] = one_unit
     _: KW_ONLY
-    positions: tuple[str, ...] = ()
+    positions: tuple[BlockPosition, ...] = ()
     groups: tuple[SideGroup, ...] = ()
     materials: tuple[str, ...] = ()
     files: tuple[str, ...] = ()

@@ -8,6 +8,7 @@ import numpy as np
 from pydantic import Field
 
 from mbla.arrays import FloatArray
+from mbla.deck.positions import COURSE, SEGMENT, SPAN, UNIT
 from mbla.deck.quantities import PositiveLength
 from mbla.deck.section import rule
 from mbla.errors import Finding
@@ -101,7 +102,7 @@ register_item(
         generate,
         amount,
         after="cross_vault",
-        positions=("course", "span", "unit", "segment"),
+        positions=(COURSE, SPAN, UNIT, SEGMENT),
         groups=(SPRINGERS,),
     )
 )

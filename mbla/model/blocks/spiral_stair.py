@@ -18,6 +18,7 @@ import numpy as np
 from pydantic import Field
 
 from mbla.arrays import FloatArray, IntArray
+from mbla.deck.positions import TREAD
 from mbla.deck.quantities import Count, Integer, Name, NonNegativeLength, PositiveLength, Quantity
 from mbla.deck.section import rule
 from mbla.errors import Finding
@@ -163,6 +164,6 @@ def amount(item: SpiralStairItem) -> tuple[float, str]:
 
 register_item(
     ItemKind(
-        "spiral_stair", SpiralStairItem, generate, amount, after="pavilion_vault", positions=("tread",), groups=(WALL,)
+        "spiral_stair", SpiralStairItem, generate, amount, after="pavilion_vault", positions=(TREAD,), groups=(WALL,)
     )
 )

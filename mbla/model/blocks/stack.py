@@ -12,6 +12,7 @@ import numpy as np
 from pydantic import Field
 
 from mbla.arrays import FloatArray
+from mbla.deck.positions import DRUM
 from mbla.deck.quantities import Count, Length, PlanePoint, PositiveLength, PositiveNumber
 from mbla.deck.section import given, rule
 from mbla.deck.suggestions import listed
@@ -96,4 +97,4 @@ def amount(item: StackItem) -> tuple[float, str]:
     return item.count, "count"
 
 
-register_item(ItemKind("stack", StackItem, generate, amount, after="column", positions=("drum",)))
+register_item(ItemKind("stack", StackItem, generate, amount, after="column", positions=(DRUM,)))

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 from pydantic import Field
 
+from mbla.deck.positions import UNIT
 from mbla.deck.quantities import PositiveLength
 from mbla.deck.section import rule
 from mbla.errors import Finding
@@ -54,4 +55,4 @@ def generate(item: TrilithonItem, site: Site) -> Generated:
     )
 
 
-register_item(ItemKind("trilithon", TrilithonItem, generate, after="stack", positions=("unit",)))
+register_item(ItemKind("trilithon", TrilithonItem, generate, after="stack", positions=(UNIT,)))

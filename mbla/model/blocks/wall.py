@@ -7,6 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 from pydantic import Field
 
+from mbla.deck.positions import COURSE, LEAF, UNIT, VOUSSOIR
 from mbla.deck.quantities import PositiveLength
 from mbla.deck.section import rule
 from mbla.errors import Finding
@@ -82,7 +83,7 @@ register_item(
         generate,
         amount,
         after="polyhedron",
-        positions=("course", "unit", "leaf", "voussoir"),
+        positions=(COURSE, UNIT, LEAF, VOUSSOIR),
         materials=MATERIALS,
     )
 )

@@ -14,6 +14,7 @@ from types import MappingProxyType
 import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray, starts, summed
+from mbla.deck.positions import NONE
 from mbla.deck.sections.selectors import POSITIONS
 from mbla.model.solids.polyhedra import Polyhedra
 from mbla.model.solids.ragged import items_of_rows, row_maxima
@@ -85,10 +86,6 @@ class Blocks(Polyhedra):
         """Centroids of own and added mass, (n_blocks, 3) m; of the volume where there is no mass."""
         share = self.added_masses / np.where(self.masses > 0.0, self.masses, 1.0)
         return self.centroids + share[:, None] * (self.added_mass_points - self.centroids)
-
-
-NONE = -1
-"""position of a block that has none of that name"""
 
 
 @dataclass(frozen=True)

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 
+from mbla.deck.positions import COPY
 from mbla.deck.schema import deck_schema
 from mbla.deck.sections.blocks import BlockItem
 from mbla.deck.sections.selectors import POSITIONS
@@ -37,7 +38,7 @@ def test_every_kind_has_type_schema_deck_and_test(name: str, used: set[str]) -> 
 def test_facts_name_what_is_there(name: str) -> None:
     kind = ITEM_KINDS[name]
     fields = kind.section.model_fields
-    assert set(kind.positions) <= {*POSITIONS} - {"copy"}
+    assert {position.name for position in kind.positions} <= {*POSITIONS} - {COPY.name}
     assert {side.key for side in kind.groups} | {*kind.files} | {
         place.split(".")[0] for place in kind.materials
     } <= set(fields)

@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
+from mbla.deck.positions import NONE
 from mbla.model.blocks.generated import Part
 from mbla.model.blocks.masonry.bonds import (
     ROUNDING,
@@ -20,7 +21,6 @@ from mbla.model.blocks.masonry.bonds import (
     stream,
 )
 from mbla.model.blocks.masonry.leg import NO_UNIT, Leg, Passage, Stretch, solid_stretches
-from mbla.model.solids.blocks import NONE
 from mbla.model.solids.plane import cut as cut_off
 from mbla.model.solids.polyhedra import Polyhedra, cuboids, join_polyhedra, prisms, take_polyhedra
 
