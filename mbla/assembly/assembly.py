@@ -10,6 +10,7 @@ from mbla.assembly.rigid_bodies import RigidBodies, rigid_bodies
 from mbla.assembly.ties import with_ties
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import LoadCase, Model
+from mbla.questions.force import Force
 
 Variant: TypeAlias = tuple[bytes | float, ...]
 """What a load case changes of what the solver sees."""
@@ -47,12 +48,12 @@ class Assembly:
         return self._seen[variant]
 
     def _with_load_cell(self, load_case: LoadCase) -> RigidBodies:
-        bodies, cell = self.glued(load_case), LoadCell.of(load_case)
-        if cell is None or load_case.objective is None:
+        bodies, cell, question = self.glued(load_case), LoadCell.of(load_case), load_case.question
+        if cell is None or not isinstance(question, Force):
             return bodies
         # sides are those of blocks: a body may have some on either side, and some on none
-        cut = replace(bodies.contacts, cut=load_case.objective.crossed(self.contacts.bodies))
-        model, contacts = with_load_cell(bodies.model, cut, load_case.objective, cell, len(bodies.label))
+        cut = replace(bodies.contacts, cut=question.objective.crossed(self.contacts.bodies))
+        model, contacts = with_load_cell(bodies.model, cut, question.objective, cell, len(bodies.label))
         return replace(bodies, model=model, contacts=contacts, body_of_block=bodies.label, load_cell=cell)
 
     def with_load_cases(self, load_cases: tuple[LoadCase, ...]) -> Assembly:
@@ -65,19 +66,17 @@ class Assembly:
 
 def _supports(load_case: LoadCase) -> Variant:
     """Supports that give way, and how."""
-    settlement = load_case.settlement
-    if settlement is None or not len(settlement.blocks):
-        return ()
-    return settlement.blocks.tobytes(), settlement.motions.tobytes()
+    question = load_case.question
+    return (question.giving_way.tobytes(), question.ways.tobytes()) if len(question.giving_way) else ()
 
 
 def _measured(load_case: LoadCase) -> Variant:
     """What a load cell measures, and in which unit."""
-    objective, settlement = load_case.objective, load_case.settlement
-    if objective is None or settlement is None:
+    question = load_case.question
+    if not isinstance(question, Force):
         return ()
-    arrays = objective.sides, objective.ties, objective.direction
-    return settlement.sense, settlement.unit, *(array.tobytes() for array in arrays)
+    arrays = question.objective.sides, question.objective.ties, question.objective.direction
+    return question.settlement.sense, question.scale, *(array.tobytes() for array in arrays)
 
 
 def assembly_of(model: Model, contacts: Contacts) -> Assembly:

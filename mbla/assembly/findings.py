@@ -39,7 +39,7 @@ def glue_findings(assembly: Assembly) -> list[tuple[KeyPath, Message]]:
             ),
         )
         for case in model.load_cases
-        if case.settlement is None and _without_effect(assembly.glued(case), case)
+        if case.question.multiplies and _without_effect(assembly.glued(case), case)
     ]
 
 
@@ -80,12 +80,13 @@ def settlement_findings(assembly: Assembly) -> Iterator[tuple[KeyPath, Message]]
     still = np.append(model.fixed, np.ones(len(model.grounds) + 1, dtype=bool))
     ties, glued = model.ties, contacts.report.glued
     for case in model.load_cases:
-        if case.settlement is None or case.objective is not None:
+        blocks = case.question.giving_way
+        if not len(blocks):
             continue
-        if (np.isin(glued, case.settlement.blocks).sum(axis=1) == 1).any():
+        if (np.isin(glued, blocks).sum(axis=1) == 1).any():
             continue  # refused for that
-        on_it = np.isin(contacts.bodies, case.settlement.blocks).any(axis=1)
-        tied = np.unique(ties.tie_of_point[np.isin(ties.bodies, case.settlement.blocks)])
+        on_it = np.isin(contacts.bodies, blocks).any(axis=1)
+        tied = np.unique(ties.tie_of_point[np.isin(ties.bodies, blocks)])
         beside = [contacts.bodies[on_it].ravel(), ties.bodies[np.isin(ties.tie_of_point, tied)]]
         if still[np.concatenate(beside)].all():  # the last entry stands for what is outside of the model
             words = "nothing that can move touches the support that gives way: no reaction is lost; see `mbla check`"
@@ -109,10 +110,9 @@ def _glued_settlements(assembly: Assembly) -> Iterator[tuple[KeyPath, Message]]:
     """A support that gives way does not take along what is glued to it."""
     model, bodies = assembly.model, assembly.contacts.report.glued
     for case in model.load_cases:
-        if case.settlement is None:
-            continue
-        on_it = bodies[np.isin(bodies, case.settlement.blocks).any(axis=1)]
-        others = np.setdiff1d(on_it, case.settlement.blocks)
+        blocks = case.question.giving_way
+        on_it = bodies[np.isin(bodies, blocks).any(axis=1)]
+        others = np.setdiff1d(on_it, blocks)
         if len(others):
             names = ", ".join(model.body_name(int(body)) for body in others[:3])
             message = f"{names} held by glue on a support that gives way: fix that too, so that it settles along"

@@ -22,7 +22,7 @@ from mbla.model.guides import Guides, joined, slide
 from mbla.model.model import LoadCase, Model
 from mbla.model.settlement import with_reference
 from mbla.model.solids.blocks import Blocks, join_labels, labels_of
-from mbla.questions.force import Objective
+from mbla.questions.force import Force, Objective
 
 
 @dataclass(frozen=True)
@@ -39,10 +39,11 @@ class LoadCell:
     @staticmethod
     def of(load_case: LoadCase) -> LoadCell | None:
         """That of a load case; None without an objective."""
-        objective, settlement = load_case.objective, load_case.settlement
-        if objective is None or settlement is None:
+        question = load_case.question
+        if not isinstance(question, Force):
             return None
-        return LoadCell(np.asarray(settlement.sense * slide(objective.direction, 1)[0]), settlement.unit)
+        along = slide(question.objective.direction, 1)[0]
+        return LoadCell(np.asarray(question.settlement.sense * along), question.scale)
 
     @property
     def motion(self) -> FloatArray:

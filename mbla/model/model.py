@@ -187,12 +187,12 @@ class Model:
 
     def of_case(self, load_case: LoadCase) -> Model:
         """The model as it may move under a load case: with the blocks of its settlement as a guided body."""
-        settlement = load_case.settlement
-        if settlement is None or not len(settlement.blocks):
+        question = load_case.question
+        if not len(question.giving_way):
             return self
         fixed = self.fixed.copy()
-        fixed[settlement.blocks] = False
-        return replace(self, fixed=fixed, guides=joined(self.guides, together(settlement.blocks, settlement.motions)))
+        fixed[question.giving_way] = False
+        return replace(self, fixed=fixed, guides=joined(self.guides, together(question.giving_way, question.ways)))
 
     @property
     def free(self) -> IntArray:

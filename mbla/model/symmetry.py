@@ -126,7 +126,7 @@ def _cannot_mirror(deck: Deck, model: Model, mirror: Mirror, path: KeyPath) -> I
         across = np.zeros_like(mirror.halves)
         for load in (case.dead_load, case.live_load):
             across |= np.abs(load[:, :3] @ mirror.normal) > ACROSS * np.abs(load[:, :3]).max(initial=0.0)
-        if (cut := np.flatnonzero(across & mirror.halves)).size and case.settlement is None:
+        if (cut := np.flatnonzero(across & mirror.halves)).size and case.question.multiplies:
             message = (
                 f"a load acts across {mirror.label} on {named(cut, model.blocks.name)}, which is cut by it: the other "
                 "half is loaded the other way, and nothing is left of it"

@@ -43,7 +43,7 @@ def _assemble_unguided(model: Model, contacts: Contacts, load_case: LoadCase, ow
     free = model.free
     dead, live = load_case.dead_load[free].ravel(), load_case.live_load[free].ravel()
     scaling = _scaling(lever_arms(model, contacts, free), dead, live)
-    if own and load_case.settlement is None:
+    if own and load_case.question.multiplies:
         scaling = _in_own_units(scaling, model, contacts, dead, live)
     matrix = sp.diags_array(scaling.row * scaling.force) @ equilibrium_matrix(model, contacts, free)
     if not isinstance(scaling.units, float):

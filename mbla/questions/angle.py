@@ -73,6 +73,23 @@ class Angle(Question):
         lowest = angle_above(tilt.upright, static, math.radians(tilt.angle))
         return math.degrees(lowest), math.degrees(highest) if math.isfinite(highest) else math.nan
 
+    def pushed(self, live_load: FloatArray) -> FloatArray:
+        """Gravity across the level table, whatever line of loads led to the angle."""
+        return self.tilt.across
+
+    def followed(self, load_factor: float) -> float:
+        """The angle in radians."""
+        return math.atan(load_factor) if self.tilt.tangent else math.radians(self.tilt.angle)
+
+    def value_at(self, followed: float) -> float:
+        """In degrees."""
+        return math.degrees(followed)
+
+    @property
+    def no_sensitivity(self) -> str:
+        """An angle by steps."""
+        return "" if self.tilt.tangent else "the angle of the tilting table is not the arc tangent of the load factor"
+
     def least(self, ratio: float) -> float:
         """None: angles are compared as they are."""
         return 0.0

@@ -9,7 +9,9 @@ from __future__ import annotations
 import math
 from typing import ClassVar, Protocol
 
-from mbla.arrays import FloatArray
+import numpy as np
+
+from mbla.arrays import FloatArray, IntArray
 from mbla.deck.units import Units
 from mbla.questions.figures import significant
 
@@ -45,6 +47,7 @@ class Question(Protocol):
     powers         : of what λ multiplies and of the dead load, in the energy balance
     no_equilibrium : the dead load alone is not carried
     no_target      : why no parameter is looked for that gives it a value, after the name of its load case
+    no_safety      : why there is no geometric factor of safety
     """
 
     name: ClassVar[str]
@@ -63,6 +66,7 @@ class Question(Protocol):
     powers: ClassVar[tuple[str, str]] = ("live load", "dead load")
     no_equilibrium: ClassVar[str] = "no equilibrium: the structure cannot carry its dead load"
     no_target: ClassVar[str] = ""
+    no_safety: ClassVar[str] = ""
 
     # --- the figure -------------------------------------------------------------------------------------------------
 
@@ -80,6 +84,16 @@ class Question(Protocol):
     def series(self) -> str | None:
         """Load case in the deck that became one for each position or end; None where it is one."""
         return None
+
+    @property
+    def giving_way(self) -> IntArray:
+        """Blocks whose support gives way, (m,)."""
+        return np.zeros(0, dtype=np.int64)
+
+    @property
+    def ways(self) -> FloatArray:
+        """How they move, (m, 6): velocity and angular velocity about the centroid of each, all in one motion."""
+        return np.zeros((0, 6))
 
     @property
     def scale(self) -> float:
@@ -127,6 +141,20 @@ class Question(Protocol):
         """The smallest figure that means something."""
         return self.least_factor(ratio)
 
+    # --- pushovers ----------------------------------------------------------------------------------------------------
+
+    def pushed(self, live_load: FloatArray) -> FloatArray:
+        """The loads, (n_blocks, 6), that a pushover scales, from those that λ multiplies."""
+        return live_load
+
+    def followed(self, load_factor: float) -> float:
+        """What a pushover follows in the place of λ, where it is λ at first."""
+        return load_factor
+
+    def value_at(self, followed: float) -> float:
+        """The figure that belongs to what a pushover follows."""
+        return self.value(followed)
+
     # --- words --------------------------------------------------------------------------------------------------------
 
     def unit(self, units: Units) -> str:
@@ -170,6 +198,11 @@ class Question(Protocol):
         bounds : as columns of the static and the kinematic bound have them
         """
         return ()
+
+    @property
+    def no_sensitivity(self) -> str:
+        """Why λ has no derivative by a parameter; empty where it may have one."""
+        return ""
 
     @property
     def forces_drawn(self) -> str:

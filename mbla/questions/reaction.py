@@ -66,6 +66,8 @@ class Reaction(Question):
     powers: ClassVar[tuple[str, str]] = ("loss of reaction", "dead load and reaction at rest")
     no_target: ClassVar[str] = "its answer is a force, which is no target; choose another load case, or mbla sweep"
 
+    no_safety: ClassVar[str] = "a support gives way"
+
     @property
     def kind(self) -> str:
         """A moment where the support turns."""
@@ -75,6 +77,16 @@ class Reaction(Question):
     def column(self) -> str:
         """One for forces, one for moments."""
         return f"reaction_{self.kind}"
+
+    @property
+    def giving_way(self) -> IntArray:
+        """Those of the support."""
+        return self.settlement.blocks
+
+    @property
+    def ways(self) -> FloatArray:
+        """The motion of the settlement."""
+        return self.settlement.motions
 
     @property
     def scale(self) -> float:
@@ -132,6 +144,11 @@ class Reaction(Question):
     def unbounded(self) -> str:
         """Of a support that the structure does not let go."""
         return "no least reaction: the structure holds the support back however hard that pulls away from it"
+
+    @property
+    def no_sensitivity(self) -> str:
+        """The reaction at rest changes too."""
+        return "of a support that gives way the load factor counts from a reference that changes as well"
 
     @property
     def forces_drawn(self) -> str:

@@ -277,7 +277,7 @@ def ultimate_displacement(case: CaseResult, sure: bool = True) -> float:
     if sure and not curve_residual(case) <= APPROXIMATE_RESIDUAL:
         return math.nan
     behind = [row.step for row in curve[1:] if row.load_factor <= 0.0]
-    if behind and case.load_case.settlement is None:
+    if behind and case.load_case.question.multiplies:
         curve = curve[: behind[0] + 1]
     elif len(curve) > 1 and case.solution.further.pushover.curve_end in (CurveEnd.FALLS, CurveEnd.NOT_CARRIED):
         return curve[-1].displacement

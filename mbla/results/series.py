@@ -64,9 +64,10 @@ def position_to_push(load_case: LoadCase, model: Model, cases: Sequence[CaseResu
     """
     asked = {each.name: each.pushover for each in model.load_cases if each.deck_name == load_case.deck_name}
     may_be = [case for case in cases if asked.get(case.load_case.name) is not None]
-    if load_case.travel is None or not may_be:
+    travelling = series_of(may_be)
+    if not travelling:
         return None
-    worst = worst_known(may_be)
+    worst = worst_known(travelling[0].cases)
     return replace(worst, load_case=replace(worst.load_case, pushover=asked[worst.load_case.name]))
 
 
@@ -75,8 +76,10 @@ def detailed_cases(cases: Sequence[CaseResult]) -> tuple[CaseResult, ...]:
 
     The position that is pushed, too.
     """
-    names = {case.load_case.name for case in cases if case.load_case.travel is None}
-    for series in series_of(cases):
+    travelling = series_of(cases)
+    names = {case.load_case.name for case in cases}
+    names -= {case.load_case.name for series in travelling for case in series.cases}
+    for series in travelling:
         factors = np.array([factor_of(case) for case in series.cases])
         unknown = [case for case, factor in zip(series.cases, factors, strict=True) if np.isnan(factor)]
         pushed = [case for case in series.cases if case.load_case.pushover is not None]

@@ -28,7 +28,7 @@ DECKS = Path(__file__).parents[2] / "decks"
 UNITS = Units()
 NONE = np.zeros(0, dtype=np.int64)
 LOADS = np.zeros((1, 6))
-SUPPORT = Settlement(NONE, np.zeros((0, 6)), False, "a support gives way", 10.0, 20.0)
+SUPPORT = Settlement(np.array([3, 4]), np.zeros((2, 6)), False, "a support gives way", 10.0, 20.0)
 GREATEST = replace(SUPPORT, sense=-1.0)
 POSITION = TravelPosition("train", 2, 3, np.zeros((1, 3)), np.ones(1), np.ones((1, 3)), NONE)
 
@@ -158,6 +158,21 @@ def test_a_deck_asks_it(example: Example) -> None:
     own = [case for case in cases if type(case.question) is type(example.question)]
     assert any(case.question.column == example.question.column for case in own)
     assert all(case.deck_name == (case.question.series or case.name) for case in own)
+
+
+@every_question
+def test_what_a_pushover_follows_and_scales(example: Example) -> None:
+    question, live = example.question, np.ones((1, 6))
+    assert question.value_at(question.followed(0.25)) == pytest.approx(question.value(0.25))
+    assert question.pushed(live) is (LOADS if question.group == "angle" else live)
+    assert question.giving_way.tolist() == ([3, 4] if question.group == "reaction" else [])
+
+
+@every_question
+def test_what_is_not_derived_says_why(example: Example) -> None:
+    own = example.question.group == "reaction"
+    assert (example.question.no_safety != "", example.question.no_sensitivity != "") == (own, own)
+    assert Angle(table(30.0)).no_sensitivity != ""
 
 
 def test_rounding_of_a_reaction_is_written_as_zero() -> None:

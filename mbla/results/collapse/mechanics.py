@@ -22,6 +22,7 @@ from mbla.arrays import FloatArray, IntArray
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import LoadCase, Model
 from mbla.program.assemble import yield_limits
+from mbla.questions.force import Force
 from mbla.results.collapse.interface_modes import sum_by_interface
 from mbla.results.collapse.ties import acting_with_ties, pulls_of_ties, tie_power
 from mbla.solution.solution import Mechanics
@@ -83,9 +84,9 @@ def work_of(model: Model, contacts: Contacts, load_case: LoadCase, mechanics: Me
         return np.asarray(sums, dtype=np.float64)
 
     live = float(mechanics.load_factor * np.sum(load_case.live_load[free] * mechanism))
-    if load_case.objective is not None and load_case.settlement is not None:  # in which the cut opens by 1/U
-        settlement = load_case.settlement
-        live = -settlement.sense * settlement.reaction(mechanics.load_factor) / settlement.unit
+    question = load_case.question
+    if isinstance(question, Force):  # in which the cut opens by 1/U
+        live = -question.settlement.sense * question.value(mechanics.load_factor) / question.scale
     return Work(
         live=live,
         dead=float(np.sum(load_case.dead_load[free] * mechanism)),

@@ -31,11 +31,9 @@ def curve_words(model: Model, case: CaseResult) -> str:
         case.solution.further.pushover.curve_end.value,
         case.solution.further.pushover.curve_end_error,
     )
-    if case.load_case.settlement is not None:
-        force = model.units.force
-        reaction = within(
-            last.reaction, case.solution.further.pushover.curve_last_error * case.load_case.settlement.unit
-        )
+    if case.load_case.question.group == "reaction":
+        force, scale = model.units.force, case.load_case.question.scale
+        reaction = within(last.reaction, case.solution.further.pushover.curve_last_error * scale)
         says = f"Followed over {counted(len(curve) - 1, 'step')}: a reaction of {reaction} {force} where "
         says += f"the support has moved by {within(last.displacement, end)} {length}, where {words}"
     else:

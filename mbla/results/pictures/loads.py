@@ -93,7 +93,7 @@ def live_marks(scene: Scene, case: LoadCase, label: str, colour: str, place: int
     place     : number among the loads of the picture
     positions : of a travelling load that are drawn together
     """
-    if case.objective is not None:
+    if not case.question.collapses:
         return []
     if case.settlement is not None:
         text = f"{label.replace('live load', '').strip()} {case.settlement.words}".strip()

@@ -101,11 +101,8 @@ class Scene(RecordScene):
     @cached_property
     def dead_load(self) -> FloatArray:
         """Dead load on blocks about their centroids, (n_blocks, 6), without the reaction that holds a support."""
-        load_case = self.case.load_case
-        if load_case.settlement is None:
-            return load_case.dead_load
-        loads = load_case.dead_load.copy()
-        loads[load_case.settlement.blocks] = 0.0
+        loads = self.case.load_case.dead_load.copy()
+        loads[self.case.load_case.question.giving_way] = 0.0
         return loads
 
     @cached_property

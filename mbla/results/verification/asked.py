@@ -236,7 +236,7 @@ def _least(found: Found, deck: Deck, case: CaseResult) -> None:
         return
     settings = settings_for(case.load_case, solver_settings(deck.analysis))
     planar = solution.size is not None and solution.size.dimension == 2
-    if case.load_case.settlement is not None or by_normality(solution):
+    if not case.load_case.question.multiplies or by_normality(solution):
         return
     by_points = not solution.conditions_on_interfaces
     if by_points and settings.search > 0.0 and (planar or settings.analysis.search is not None):

@@ -47,8 +47,7 @@ class Control:
         assert case.pushover is not None  # else nothing is pushed
         speed = np.linalg.norm(mechanism[:, :3], axis=1)
         moves = np.flatnonzero(speed > MOVES * speed.max())
-        live = case.live_load if case.tilt is None else case.tilt.across
-        loads = live[moves, :3]
+        loads = case.question.pushed(case.live_load)[moves, :3]
         along = loads.sum(axis=0)
         size = float(np.linalg.norm(along))
         if size > 0.0:  # by its share of the live load, where that acts: so the control point does the work of it

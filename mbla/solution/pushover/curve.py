@@ -81,7 +81,7 @@ def why_not_pushed(model: Model, contacts: Contacts, case: LoadCase, solution: S
 def _above_start(case: LoadCase, solution: Solution) -> Iterator[str]:
     """That the load factor at which the curve is to end is not below the one that it begins with, in words."""
     asked = case.pushover
-    if asked is None or case.settlement is not None or solution.mechanics is None:
+    if asked is None or not case.question.multiplies or solution.mechanics is None:
         return
     first = start_of(solution).load_factor
     if asked.until_load_factor >= first > 0.0:
@@ -114,10 +114,7 @@ def factor_at_start(case: LoadCase, solution: Solution) -> float:
     """Load factor of row 0; of a tilting table its angle in radians. nan where the structure does not start to move."""
     if solution.mechanics is None:
         return np.nan
-    factor = start_of(solution).load_factor
-    if case.tilt is None:
-        return factor
-    return float(np.arctan(factor) if case.tilt.tangent else np.radians(case.tilt.angle))
+    return case.question.followed(start_of(solution).load_factor)
 
 
 def no_pushover(against: str) -> Message:
@@ -279,7 +276,7 @@ def curve_of(assembly: Assembly, case: LoadCase, solution: Solution, rows: Pushe
     if solution.least is not None and start_of(solution) is solution.least:
         start = "least"
     begins = residual_of(assembly, case, solution, start)
-    curve = list[CurveRow]()
+    curve, figures = list[CurveRow](), [case.question.value_at(float(factor)) for factor in factors]
     motions = [np.zeros((len(model.blocks), 6))]
     for number, pose in enumerate(poses):
         if number:
@@ -290,8 +287,8 @@ def curve_of(assembly: Assembly, case: LoadCase, solution: Solution, rows: Pushe
                 step=number,
                 displacement=control.displacement(model, pose),
                 load_factor=float(factors[number]),
-                reaction=np.nan if case.settlement is None else case.settlement.reaction(float(factors[number])),
-                angle=np.nan if case.tilt is None else float(np.degrees(factors[number])),
+                reaction=figures[number] if case.question.group == "reaction" else np.nan,
+                angle=figures[number] if case.question.group == "angle" else np.nan,
                 error=float(rows.errors[number]),
                 residual=found[number].largest if number else begins,
                 overlap=found[number].overlap if number else 0.0,

@@ -26,7 +26,7 @@ def end_shown(case: LoadCase, curve: Sequence[CurveRow]) -> CurveEnd:
     if asked is None:
         return CurveEnd.NONE
     end = asked.until_load_factor
-    if case.settlement is None and last.load_factor <= end + ROUNDING * abs(curve[0].load_factor):
+    if case.question.multiplies and last.load_factor <= end + ROUNDING * abs(curve[0].load_factor):
         return CurveEnd.FACTOR_REACHED if end else CurveEnd.NOTHING_LEFT
     if last.displacement >= asked.until * (1.0 - 2.0 * ROUNDING):
         return CurveEnd.REACHED

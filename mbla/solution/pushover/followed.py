@@ -71,10 +71,8 @@ def step_errors(
 
 def greatest_value(case: LoadCase, load_factors: FloatArray) -> float:
     """Greatest load factor of a curve, or reaction of a support over the unit of load factors."""
-    settlement = case.settlement
-    if settlement is None:
-        return float(np.abs(load_factors).max())
-    return float(np.abs([settlement.reaction(each) / settlement.unit for each in load_factors]).max())
+    question = case.question
+    return float(np.abs([question.compared(each) / question.scale for each in load_factors]).max())
 
 
 def step_dependence(case: LoadCase, pushover: Pushover) -> float:

@@ -74,9 +74,7 @@ def _hanging(joints: MovedJoints, history: History) -> BoolArray:
     model, n_solids = joints.model, joints.structure.n_solids
     held = np.append(np.concatenate([model.fixed, np.ones(len(model.grounds), dtype=bool)]), True)
     held[model.guides.blocks] = True
-    settlement = joints.structure.case.settlement
-    if settlement is not None:
-        held[joints.structure.solids.label[settlement.blocks]] = True
+    held[joints.structure.solids.label[joints.structure.case.question.giving_way]] = True
     node = np.where(held, len(held) - 1, np.arange(len(held)))
     touching = joints.touching
     near = touching.points.at(joints.found_at).offsets[:, 0] - joints.opened(history) < NEAR * touching.sizes

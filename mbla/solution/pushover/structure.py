@@ -49,7 +49,7 @@ class PushedStructure:
     def of(assembly: Assembly, section: ContactsSection, case: LoadCase, flow_rule: str) -> PushedStructure:
         """From contacts as built."""
         model, solids = assembly.model.of_case(case), assembly.glued(case)
-        case = case if case.tilt is None else replace(case, live_load=case.tilt.across)
+        case = replace(case, live_load=case.question.pushed(case.live_load))
         numbers = _numbers(solids.contacts.bodies, _n_bodies(solids.model))
         pairs, place = np.unique(numbers, return_inverse=True)
         areas = np.asarray(np.bincount(place.ravel(), solids.contacts.areas, len(pairs)), dtype=np.float64)

@@ -245,8 +245,7 @@ class Way:
         speed = np.linalg.norm(self.first.mechanism[:, :3], axis=1)
         masses = np.where(speed > MOVES * speed.max(), self.structure.model.blocks.masses, 0.0)
         masses[self.control.blocks] = 0.0
-        if self.structure.case.settlement is not None:
-            masses[self.structure.case.settlement.blocks] = 0.0
+        masses[self.structure.case.question.giving_way] = 0.0
         return masses
 
     def _unit(self, place: Place) -> float:

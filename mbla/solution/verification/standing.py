@@ -73,8 +73,8 @@ def standing_failures(
     allowed = np.where(model.fixed, np.inf, scale.allowed(contacts, forces, UNBALANCED, FORCE_ROUNDING))
     acting = contact_resultants(model, contacts, forces) + load_case.dead_load
     failures = []
-    if load_case.settlement is not None:  # a support that gives way later is held, whatever its reaction
-        blocks, way = load_case.settlement.blocks, load_case.settlement.motions
+    blocks, way = load_case.question.giving_way, load_case.question.ways
+    if len(blocks):  # a support that gives way later is held, whatever its reaction
         live = load_case.live_load
         acting = acting - live * float((acting[blocks] * way).sum() / (live[blocks] * way).sum())
         along = float((settlement[blocks] * way).sum()) / float(np.linalg.norm(way))

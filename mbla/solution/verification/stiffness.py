@@ -60,7 +60,7 @@ def _units(model: Model, contacts: Contacts, load_case: LoadCase) -> FloatArray:
     units = np.ones(n + 1)
     ends = np.minimum(contacts.bodies, n)
     ends = np.where(moves[ends], ends, n)  # what does not move is one body
-    if light.any() and load_case.settlement is None:
+    if light.any() and load_case.question.multiplies:
         both, one = light[ends].all(axis=1), light[ends].sum(axis=1) == 1
         graph = coo_array((np.ones(both.sum()), ends[both].T), shape=(n + 1, n + 1))
         pile = connected_components(graph, directed=False)[1]

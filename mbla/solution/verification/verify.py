@@ -107,8 +107,8 @@ def residual_of(assembly: Assembly, load_case: LoadCase, solution: Solution, par
     bodies = assembly.of(load_case)
     of_bodies, _ = solution_on_bodies(solution, bodies)
     mechanics = getattr(of_bodies, part)
-    if part == "level" and load_case.tilt is not None:
-        load_case = replace(load_case, live_load=load_case.tilt.across)
+    if part == "level":
+        load_case = replace(load_case, live_load=load_case.question.pushed(load_case.live_load))
     rule = rule_of(part, solution)
     parts = _claimed(bodies, load_case)
     case = Case(*parts)

@@ -80,8 +80,8 @@ def why_no_geometric_safety(model: Model, contacts: Contacts, load_case: LoadCas
     """What keeps it from being looked for, in words; empty where nothing does."""
     if len(model.ties):
         return "there are ties, or soil that holds it sideways, which do not shrink with the joints"
-    if load_case.settlement is not None:
-        return "a support gives way"
+    if against := load_case.question.no_safety:
+        return against
     if analysis.contact_model == "convex" or crushable_interfaces(model, contacts).any():
         return "it is for joints whose points carry all, without compressive strength and contact_model: convex"
     if not np.any(load_case.dead_load[model.free]):

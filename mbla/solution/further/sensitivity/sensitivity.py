@@ -97,10 +97,8 @@ def slope_by(
 def why_no_sensitivity(load_case: LoadCase, solution: Solution, checks: Checks) -> str:
     """Why there is no derivative; empty where there is one."""
     associative = solution.associative
-    if load_case.settlement is not None:
-        return "of a support that gives way the load factor counts from a reference that changes as well"
-    if load_case.tilt is not None and not load_case.tilt.tangent:
-        return "the angle of the tilting table is not the arc tangent of the load factor"
+    if against := load_case.question.no_sensitivity:
+        return against
     if associative is None or not checks.gap <= GAP_TOLERANCE:
         return "the associative load factor is not proved"
     motions = associative.interface_motions
