@@ -119,7 +119,7 @@ def _cannot_mirror(deck: Deck, model: Model, mirror: Mirror, path: KeyPath) -> I
         if section.ring is not None:
             words = "goes round the whole structure: give that, or the half of it with `through`, from ground to ground"
             yield Finding("symmetry-broken", f"{words} in the plane", "ties", number, "ring")
-    for name in dict.fromkeys(case.deck_name for case in model.load_cases if case.objective is not None):
+    for name in dict.fromkeys(case.deck_name for case in model.load_cases if not case.question.collapses):
         message = "a force through a cut of one half is no question of the other: give the whole structure"
         yield Finding("symmetry-broken", message, "load_cases", name, "objective")
     for case in model.load_cases:
@@ -132,10 +132,10 @@ def _cannot_mirror(deck: Deck, model: Model, mirror: Mirror, path: KeyPath) -> I
                 "half is loaded the other way, and nothing is left of it"
             )
             yield Finding("symmetry-broken", message, "load_cases", case.name)
-        settlement = case.settlement
-        if settlement is not None and mirror.halves[settlement.blocks].any():
-            moved = settlement.motions[mirror.halves[settlement.blocks]]
-            if settlement.turns or np.any(np.abs(moved[:, :3] @ mirror.normal) > ACROSS):
+        question, cut = case.question, mirror.halves[case.question.giving_way]
+        if cut.any():
+            moved = question.ways[cut]
+            if question.kind == "moment" or np.any(np.abs(moved[:, :3] @ mirror.normal) > ACROSS):
                 message = (
                     "a support that the plane of symmetry cuts can only give way along that plane, without turning"
                 )
