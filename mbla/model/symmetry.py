@@ -132,9 +132,9 @@ def _cannot_mirror(deck: Deck, model: Model, mirror: Mirror, path: KeyPath) -> I
                 "half is loaded the other way, and nothing is left of it"
             )
             yield Finding("symmetry-broken", message, "load_cases", case.name)
-        question, cut = case.question, mirror.halves[case.question.giving_way]
-        if cut.any():
-            moved = question.ways[cut]
+        question, halved = case.question, mirror.halves[case.question.giving_way]
+        if halved.any():
+            moved = question.ways[halved]
             if question.kind == "moment" or np.any(np.abs(moved[:, :3] @ mirror.normal) > ACROSS):
                 message = (
                     "a support that the plane of symmetry cuts can only give way along that plane, without turning"

@@ -24,6 +24,8 @@ import numpy as np
 
 from mbla.assembly import build_assembly
 from mbla.deck import Deck
+from mbla.deck.section import given
+from mbla.deck.sections.loads import LIVE_ONLY
 from mbla.errors import UsageError
 from mbla.model import build_model
 from mbla.model.loads.load_case import kind_of
@@ -161,6 +163,13 @@ def stretched(degrees: float, ratio: float) -> float:
 # --- loads ------------------------------------------------------------------------------------------------------------
 
 
+NO_LIVE_LOAD = {
+    "objective": "a force is sought, no load factor",
+    "settlement": "a support gives way, there is no live load",
+}
+"""Keys of load cases without a live load for a diagram, and what they ask instead"""
+
+
 def _live_loads(deck: Deck, case: str) -> list[Entry]:
     """The live loads of a case, those that named loads stand for among them, with the products of their factors.
 
@@ -169,12 +178,10 @@ def _live_loads(deck: Deck, case: str) -> list[Entry]:
     cases = deck.content.load_cases
     if case not in cases:
         raise UsageError("unknown-load-case", f"no load case {case} in the deck; it has {', '.join(cases)}")
-    if cases[case].objective is not None:
-        raise UsageError("interact-load", f"load case {case}: a force is sought, no load factor")
-    if cases[case].settlement is not None:
-        raise UsageError("interact-load", f"load case {case}: a support gives way, there is no live load")
+    for key in given(cases[case], tuple(NO_LIVE_LOAD)):
+        raise UsageError("interact-load", f"load case {case}: {NO_LIVE_LOAD[key]}")
     entries = list(entries_of(cases[case].live or [], ("load_cases", case, "live"), deck.content.loads))
-    if any(entry.load.travel is not None or entry.load.tilt is not None for entry in entries):
+    if any(given(entry.load, LIVE_ONLY) for entry in entries):
         raise UsageError(
             "interact-load", f"load case {case}: its live load travels or tilts; a diagram takes other kinds of load"
         )
