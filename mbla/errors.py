@@ -18,7 +18,8 @@ and ``mbla explain`` says what it means. A new error takes the identifier of its
 1. it is written as a literal where the message is made: ``FileError("result-exists", f"{path}: exists already")``,
    or ``Message("face-not-planar", "...")`` for what becomes a :class:`Fault` where its place is known; whoever hands
    an error on keeps the identifier: ``FileError(error.identifier, ...)``, ``error.message.around(before=...)``;
-2. it gets an entry next to similar ones in ``mbla/results/messages.toml`` (cause, remedy, example);
+2. its identifier goes into ``mbla/results/messages.toml``: into the list ``message_says_all`` of its section, or, where
+   cause and remedy say more than the message does, next to similar ones with both;
 3. it gets a test: a line of the table of ``tests/invalid_decks`` or ``tests/invalid_sweeps`` for what is
    wrong in one, else a case in ``tests/trust/messages``, whose checks find what lacks any of the three.
 """

@@ -9,16 +9,20 @@ from functools import cache
 from importlib import import_module
 from importlib.resources import files
 from string import Template
+from textwrap import wrap
 from typing import Any
 
 from mbla.deck.suggestions import did_you_mean
 from mbla.errors import UsageError
 from mbla.results.listing.text import WIDTH, heading, sentence
 
+TOLD = "The message itself says what is wrong, where, and what to do."
+"""title of an entry that has nothing to add to its message"""
+
 
 @dataclass(frozen=True)
 class Explanation:
-    """One entry.
+    """One entry; one whose message says all has the title ``TOLD``, and neither cause nor remedy.
 
     identifier : stable, in kebab case; what stands in brackets in listings and under ``identifier`` in JSON
     kind       : what carries it: a notice, a status, an error, ...
@@ -51,8 +55,10 @@ def sections() -> dict[str, tuple[Explanation, ...]]:
     found = {}
     for section in content.values():
         common = {key: value for key, value in section.items() if key != "title" and not isinstance(value, dict)}
+        says_all = common.pop("message_says_all", ())
+        told = dict.fromkeys(says_all, common | {"title": TOLD, "cause": "", "remedy": ""})
         entries = {name: {**common, **entry} for name, entry in section.items() if isinstance(entry, dict)}
-        found[section["title"]] = tuple(_explanation(name, entry, words) for name, entry in entries.items())
+        found[section["title"]] = tuple(_explanation(name, entry, words) for name, entry in (entries | told).items())
     return found
 
 
@@ -123,7 +129,11 @@ def _with_word(query: str) -> tuple[Explanation, ...]:
         return any(words) and all(word in text for word in words)
 
     entries = explanations().values()
-    near = tuple(entry for entry in entries if having([entry.identifier, entry.title, *entry.aliases, *entry.says]))
+    near = tuple(
+        entry
+        for entry in entries
+        if having([entry.identifier, entry.title.removeprefix(TOLD), *entry.aliases, *entry.says])
+    )
     return near or tuple(entry for entry in entries if having([entry.meaning, entry.cause, entry.remedy]))
 
 
@@ -137,8 +147,12 @@ def explanation_text(found: Sequence[Explanation]) -> str:
 
 
 def all_text() -> str:
-    """Every entry in a line, by sections."""
-    lines = [line for title, entries in sections().items() for line in (*heading(title), *_in_lines(entries))]
+    """Every entry in a line, by sections; those that have nothing to add to their message in sentences."""
+    lines: list[str] = []
+    for title, entries in sections().items():
+        lines += [*heading(title), *_in_lines([entry for entry in entries if entry.title != TOLD])]
+        told = [entry.identifier for entry in entries if entry.title == TOLD]
+        lines += ["", "  The message itself says all:", *_in_names(told)] if told else []
     lines += ["", "mbla explain ID explains one in full; a word or a complete message finds it too."]
     return "\n".join(lines[1:]) + "\n"
 
@@ -147,7 +161,8 @@ def explanation_json(entry: Explanation) -> dict[str, Any]:
     """An entry with its keys."""
     record = asdict(entry)
     del record["says"]
-    return {**record, "example": entry.example or None, "aliases": list(entry.aliases)}
+    texts = {key: record[key] or None for key in ("cause", "remedy", "example")}
+    return {**record, **texts, "aliases": list(entry.aliases)}
 
 
 def _in_full(entry: Explanation) -> list[str]:
@@ -167,6 +182,11 @@ def _in_full(entry: Explanation) -> list[str]:
 def _in_lines(entries: Sequence[Explanation]) -> list[str]:
     column = 2 + max(len(entry.identifier) for entry in entries)
     return [f"  {entry.identifier:<{column}}{_shortened(entry.title, WIDTH - column - 2)}" for entry in entries]
+
+
+def _in_names(identifiers: Sequence[str]) -> list[str]:
+    indent = "    "
+    return wrap(", ".join(identifiers), WIDTH, initial_indent=indent, subsequent_indent=indent, break_on_hyphens=False)
 
 
 def _shortened(title: str, width: int) -> str:
