@@ -75,8 +75,8 @@ def add_diff(commands: Any) -> None:
     command = commands.add_parser(
         "diff",
         help="what differs between two result files",
-        description="Compare decks, settings, models and load cases of two result files; figures of B are brought into "
-        "the units of A.",
+        description="Compare deck texts, figures and mechanisms of two result files; figures of B are brought into the "
+        "units of A.",
         epilog="Exit status 0 whatever differs; with --fail 4 where a load case differs in its status or its answer "
         "(load factor, angle or reaction), or is in one file only.",
     )
