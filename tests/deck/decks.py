@@ -41,8 +41,14 @@ def write(folder: Path, text: str, name: str = "deck.yaml") -> Path:
     return path
 
 
-def faults(path: Path, *overrides: str) -> list[str]:
-    """Messages of a deck that must be refused, without the folder."""
+def refusal(path: Path, *overrides: str) -> DeckError:
+    """The error of a deck that must be refused."""
     with pytest.raises(DeckError) as caught:
         read_deck(path, overrides)
-    return [str(fault).replace(f"{path.parent}/", "") for fault in caught.value.faults]
+    return caught.value
+
+
+def faults(path: Path, *overrides: str) -> list[str]:
+    """Place, key and identifier of each fault of a deck that must be refused, without the folder."""
+    found = refusal(path, *overrides).faults
+    return [f"{fault.place} {fault.key} [{fault.identifier}]".replace(f"{path.parent}/", "") for fault in found]

@@ -48,7 +48,7 @@ def test_it_does_in_every_place(tmp_path: Path, place: str, old: str, new: str) 
 
 def test_a_wrong_selector_is_reported_where_it_is_written(tmp_path: Path) -> None:
     text = NAMED.replace("index: 0}, both", "indx: 0}, both").replace("{ground: {z: 0}}", "{blocks: first}")
-    places = {message.split(" ")[0] for message in faults(write(tmp_path, text))}
+    places = {fault.split(" ")[0] for fault in faults(write(tmp_path, text))}
     assert places == {"deck.yaml:11:44"}
 
 
@@ -57,7 +57,7 @@ def test_names_of_two_files_are_one_section(tmp_path: Path) -> None:
     text = changed("mbla: 1\n", "mbla: 1\ninclude: [names.yaml]\n").replace("{ground: {z: 0}}", "{blocks: first}")
     assert read_deck(write(tmp_path, text)).content.supports[0].blocks == SelectorTerm(group="block", index=0)
     twice = text.replace("contacts:", "groups: {first: block}\ncontacts:")
-    assert any("is defined in" in message for message in faults(write(tmp_path, twice)))
+    assert any("[duplicate-key]" in fault for fault in faults(write(tmp_path, twice)))
 
 
 def test_a_choice_can_be_set(tmp_path: Path) -> None:

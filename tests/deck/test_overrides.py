@@ -8,7 +8,7 @@ from mbla.deck import Deck, read_deck
 from mbla.deck.text.overrides import next_key
 from mbla.errors import Message
 from mbla.model.blocks.box import BoxItem
-from tests.deck.decks import BLOCK, changed, faults, write
+from tests.deck.decks import BLOCK, changed, faults, refusal, write
 
 
 @pytest.fixture
@@ -88,16 +88,16 @@ def test_place_is_the_override(path: Path) -> None:
     ],
 )
 def test_refusals(path: Path, override: str, message: str) -> None:
-    (found,) = faults(path, override)
-    assert found.startswith(message)
+    (found,) = refusal(path, override).faults
+    assert str(found).startswith(message)
 
 
 def test_faults_of_deck_and_overrides_together(tmp_path: Path) -> None:
     path = write(tmp_path, changed("density: 2000", "density: -1"))
     assert faults(path, "parameters.mo=1", "contacts.tolerance=2") == [
-        "--set:1:1 parameters.mo = 1: unknown name mo in parameters; known: mu",
-        "--set:2:20 contacts.tolerance = 2: must be <= 0.1",
-        "deck.yaml:6:20 materials.stone.density = -1: must be > 0",
+        "--set:1:1 parameters.mo [unknown-name]",
+        "--set:2:20 contacts.tolerance [out-of-bounds]",
+        "deck.yaml:6:20 materials.stone.density [out-of-bounds]",
     ]
 
 

@@ -56,34 +56,33 @@ def test_one_fault_for_one_transform(tmp_path: Path, value: str) -> None:
 @pytest.mark.parametrize("key", ["float", "chain", "name", "mapping", "list", "SelectorTerm"])
 def test_names_like_branches_of_a_union_are_kept_in_the_path(tmp_path: Path, key: str) -> None:
     text = BLOCK.replace("stone", key).replace("density: 2000", "density: 0")
-    assert faults(write(tmp_path, text)) == [f"deck.yaml:6:{15 + len(key)} materials.{key}.density = 0: must be > 0"]
+    assert faults(write(tmp_path, text)) == [f"deck.yaml:6:{15 + len(key)} materials.{key}.density [out-of-bounds]"]
 
 
 def test_unreadable_value_does_not_break_rules_around_it(tmp_path: Path) -> None:
     assert faults(write(tmp_path, changed('{friction: "=mu"}', "{friction: .inf}"))) == [
-        "deck.yaml:8:19 joints.dry.friction = .inf: must be a finite number"
+        "deck.yaml:8:19 joints.dry.friction [not-a-number]"
     ]
 
 
 def test_fault_beside_an_unreadable_value_is_still_reported(tmp_path: Path) -> None:
     assert faults(write(tmp_path, changed('{friction: "=mu"}', "{friction: .inf, cohesion: -1}"))) == [
-        "deck.yaml:8:19 joints.dry.friction = .inf: must be a finite number",
-        "deck.yaml:8:35 joints.dry.cohesion = -1: must be >= 0",
+        "deck.yaml:8:19 joints.dry.friction [not-a-number]",
+        "deck.yaml:8:35 joints.dry.cohesion [out-of-bounds]",
     ]
 
 
 def test_root_that_is_no_mapping_and_faulty_itself(tmp_path: Path) -> None:
     assert faults(write(tmp_path, "- .nan\n")) == [
-        "deck.yaml:1:1 is not a mapping: a deck is a mapping that begins with mbla: 1",
-        "deck.yaml:1:3 [0] = .nan: must be a finite number",
+        "deck.yaml:1:1  [not-a-mapping]",
+        "deck.yaml:1:3 [0] [not-a-number]",
     ]
 
 
 def test_users_of_a_faulty_parameter_are_not_reported(tmp_path: Path) -> None:
     for value in ("true", '"=nu"', '"0.6"', "[1]", "~"):
-        messages = faults(write(tmp_path, changed("{mu: 0.6}", f"{{mu: {value}}}")))
-        assert len(messages) == 1
-        assert "parameters.mu" in messages[0]
+        (found,) = faults(write(tmp_path, changed("{mu: 0.6}", f"{{mu: {value}}}")))
+        assert "parameters.mu" in found
 
 
 @pytest.mark.parametrize("item", ["{mas: 1}", "x"])
@@ -92,13 +91,13 @@ def test_the_first_of_very_many_wrong_items_are_told(tmp_path: Path, count: int,
     told = faults(write(tmp_path, BLOCK + "masses:\n" + f"  - {item}\n" * count))
     assert told[0].startswith(f"deck.yaml:{BLOCK.count(chr(10)) + 2}:5 masses[0]")
     assert len(told) == MOST_FAULTS + 1
-    assert told[-1].endswith("more faults follow: only the first 1000 are listed")
+    assert told[-1].endswith("[more-faults]")
 
 
 def test_of_very_many_wrong_names_none_is_told(tmp_path: Path) -> None:
     names = ", ".join(f"n{number}: {{a: 1, b: 1}}" for number in range(MOST_WRONG // 2 - 1))
     told = faults(write(tmp_path, f"{BLOCK}expected: {{{names}}}\n"))
-    assert told[0] == "deck.yaml:1:1 more than 20,000 values are wrong: the others were not checked"
+    assert told[0] == "deck.yaml:1:1  [more-faults]"
 
 
 def test_a_signal_waits_until_the_validator_is_there() -> None:
