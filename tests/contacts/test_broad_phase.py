@@ -64,9 +64,6 @@ def test_crowds_are_refused(monkeypatch: pytest.MonkeyPatch) -> None:
     with pytest.raises(ContactsRefused) as refused:
         pairs_of(*near)
     assert refused.value.message.identifier == "too-many-units"
-    assert str(refused.value) == (
-        "many blocks lie in one place, as block[0]: more than 2 pairs come near each other; no more can be handled"
-    )
 
 
 @pytest.mark.parametrize("axis", [0, 1, 2])

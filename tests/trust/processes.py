@@ -5,49 +5,28 @@
     python -m tests.trust.processes MODULE[:FUNCTION] ...
 
 imports the modules, calls the functions, then runs the commands that it is told on standard input, a line of JSON each,
-and answers with two lines: the copy's process, and how it ended. ``faults/shim.c`` may stand between that process and
-the C library, for Python and for libraries written in C alike: it lets calls on files fail, or bring a signal.
+and answers with two lines: the copy's process, and how it ended.
 """
 
 from __future__ import annotations
 
 import contextlib
-import ctypes
 import importlib
 import json
 import os
 import resource
-import shutil
 import signal
 import subprocess
 import sys
 import tempfile
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-CALLS = ("write", "sync", "rename", "open", "mkdir", "unlink")
-"""kinds of calls, in the order of ``shim.c``"""
-SHIM = Path(__file__).parent / "faults" / "shim.c"
 LIMIT = 120.0
 """seconds in which the process must end that runs the commands, on the busiest machine"""
 MB = 1e6
-
-
-@dataclass(frozen=True)
-class Fault:
-    """A call below a folder that fails, or that brings a signal; number 0 counts only.
-
-    error : number of the error; stays : every later call of the kind fails as well
-    """
-
-    folder: str
-    call: str = CALLS[0]
-    number: int = 0
-    error: int = 0
-    stays: bool = False
-    signal: int = 0
 
 
 @dataclass(frozen=True)
@@ -58,7 +37,6 @@ class Ended:
     out, err : what it printed
     seconds  : of the processor that it took
     memory   : the most that was resident [MB]
-    counts   : calls on files by kind, and ``came``: whether the fault did
     """
 
     status: int
@@ -66,7 +44,6 @@ class Ended:
     err: str
     seconds: float
     memory: float
-    counts: Mapping[str, int] = field(default_factory=dict)
 
 
 class Begun:
@@ -98,24 +75,18 @@ class Commands:
     imported : modules and functions of the process that runs them
     limits   : for every command, those of the ``resource`` module, such as RLIMIT_CPU; RLIMIT_AS is above what a
                process has that has all imported
-    shim     : whether the library stands between, where there is a compiler; commands then end as a process of their
-               own does, else at once
     """
 
-    def __init__(self, imported: Sequence[str], limits: Mapping[str, int] | None = None, shim: bool = False) -> None:
+    def __init__(self, imported: Sequence[str], limits: Mapping[str, int] | None = None) -> None:
         self._imported, self._limits = imported, dict(limits or {})
         self._folder = tempfile.TemporaryDirectory()
-        self.shim = _built(Path(self._folder.name)) if shim else None
 
     def __enter__(self) -> Commands:
-        environment = os.environ | {"MPLBACKEND": "agg"}
-        if self.shim is not None:
-            environment["LD_PRELOAD"] = str(self.shim)
         self._process = subprocess.Popen(
             [sys.executable, "-m", __name__, *self._imported],
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
-            env=environment,
+            env=os.environ | {"MPLBACKEND": "agg"},
             text=True,
             start_new_session=True,
         )
@@ -130,17 +101,12 @@ class Commands:
         self._folder.cleanup()
 
     def begin(
-        self,
-        *arguments: str | Path,
-        folder: Path | None = None,
-        fault: Fault | None = None,
-        limits: Mapping[str, int] | None = None,
+        self, *arguments: str | Path, folder: Path | None = None, limits: Mapping[str, int] | None = None
     ) -> Begun:
         """Begin a command, in a folder."""
         command = {
             "arguments": [str(argument) for argument in arguments],
             "folder": str(folder or Path.cwd()),
-            "fault": asdict(fault or Fault("/nowhere")),
             "limits": self._limits | dict(limits or {}),
             "files": [os.devnull, *(str(self._printed(name)) for name in ("out", "err"))],
         }
@@ -149,15 +115,9 @@ class Commands:
         self._process.stdin.flush()
         return Begun(int(self._answer()), self)
 
-    def run(
-        self,
-        *arguments: str | Path,
-        folder: Path | None = None,
-        fault: Fault | None = None,
-        limits: Mapping[str, int] | None = None,
-    ) -> Ended:
+    def run(self, *arguments: str | Path, folder: Path | None = None, limits: Mapping[str, int] | None = None) -> Ended:
         """Run a command to its end."""
-        return self.begin(*arguments, folder=folder, fault=fault, limits=limits).end()
+        return self.begin(*arguments, folder=folder, limits=limits).end()
 
     def ended(self) -> Ended:
         """How the command ended that was begun."""
@@ -175,39 +135,10 @@ class Commands:
         return line
 
 
-def _built(folder: Path) -> Path | None:
-    """The library, compiled into a folder; None where that cannot be."""
-    compiler = shutil.which("cc") or shutil.which("gcc")
-    if compiler is None or sys.platform != "linux":
-        return None
-    library = folder / "shim.so"
-    subprocess.run([compiler, "-shared", "-fPIC", "-O1", "-w", "-o", library, SHIM, "-ldl"], check=True)
-    return library
-
-
 # --- the process that runs them ---------------------------------------------------------------------------------------
 
 
-class Shim:
-    """The library inside the process that was begun with it."""
-
-    def __init__(self) -> None:
-        self._library = ctypes.CDLL(os.environ["LD_PRELOAD"])
-        self._library.fault_counters.restype = ctypes.POINTER(ctypes.c_long)
-        self._counters = self._library.fault_counters()
-
-    def arm(self, fault: Fault) -> None:
-        """Let a call fail, or bring a signal."""
-        numbers = map(ctypes.c_int, (fault.error, fault.stays, fault.signal))
-        kind, number = ctypes.c_int(CALLS.index(fault.call)), ctypes.c_long(fault.number)
-        self._library.fault_arm(fault.folder.encode(), kind, number, *numbers)
-
-    def counts(self) -> dict[str, int]:
-        """Of the last command."""
-        return {name: int(self._counters[place]) for place, name in enumerate((*CALLS, "came"))}
-
-
-def _command(command: dict[str, Any], shim: Shim | None) -> None:
+def _command(command: dict[str, Any]) -> None:
     """One command, in a copy of the process."""
     from mbla.cli import main
     from mbla.process.signals import hear_termination
@@ -224,16 +155,12 @@ def _command(command: dict[str, Any], shim: Shim | None) -> None:
     for name, most in command["limits"].items():
         limit = most + (pages * os.sysconf("SC_PAGE_SIZE") if name == "RLIMIT_AS" else 0)
         resource.setrlimit(getattr(resource, name), (limit, limit))
-    if shim is not None:
-        shim.arm(Fault(**command["fault"]))
     try:
         sys.exit(main(command["arguments"]))
     except SystemExit as ended:
-        if shim is None:
-            sys.stdout.flush()
-            sys.stderr.flush()
-            os._exit(ended.code if isinstance(ended.code, int) else 1)
-        raise
+        sys.stdout.flush()
+        sys.stderr.flush()
+        os._exit(ended.code if isinstance(ended.code, int) else 1)
 
 
 def serve(imported: Sequence[str]) -> None:
@@ -243,19 +170,18 @@ def serve(imported: Sequence[str]) -> None:
         found = importlib.import_module(module)
         if function:
             getattr(found, function)()
-    shim, output = Shim() if "LD_PRELOAD" in os.environ else None, sys.stdout
+    output = sys.stdout
     while line := sys.stdin.readline():
         pid = os.fork()
         if pid == 0:
             sys.stdin = Path(os.devnull).open()  # noqa: SIM115 - nothing of what is told may be read twice
-            _command(json.loads(line), shim)
+            _command(json.loads(line))
         print(pid, file=output, flush=True)
         _, status, used = os.wait4(pid, 0)
         answer = {
             "status": os.waitstatus_to_exitcode(status),
             "seconds": used.ru_utime + used.ru_stime,
             "memory": used.ru_maxrss * 1024 / MB,
-            "counts": {} if shim is None else shim.counts(),
         }
         print(json.dumps(answer), file=output, flush=True)
 

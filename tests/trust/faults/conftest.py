@@ -21,16 +21,8 @@ def commands() -> Iterator[Commands]:
         library = ctypes.CDLL(None, use_errno=True)
         if library.unshare(CLONE_NEWNS) == 0 and library.mount(b"none", b"/", None, MS_REC | MS_PRIVATE, None):
             raise OSError(ctypes.get_errno(), "mounts cannot be made private")
-    with Commands(IMPORTED, shim=True) as running:
+    with Commands(IMPORTED) as running:
         yield running
-
-
-@pytest.fixture(scope="session")
-def faulty(commands: Commands) -> Commands:
-    """Commands whose calls can be made to fail."""
-    if commands.shim is None:
-        pytest.skip("no C compiler: calls cannot be made to fail where libraries written in C make them")
-    return commands
 
 
 @pytest.fixture(scope="session")

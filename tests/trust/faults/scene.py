@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from tests.line import BLOCK
-from tests.trust.processes import Begun, Commands, Ended, Fault
+from tests.trust.processes import Begun, Commands, Ended
 
 DECK = BLOCK + "output: {vtu: true, frames: 2}\n"
 PARTIAL = ("block.partial.h5", "block.partial.lst", "block.partial.json")
@@ -39,7 +39,7 @@ class Scene:
         self.new = content(self.out)
 
     def run(self, *options: str | Path, **how: Any) -> Ended:
-        """``mbla run``, with a fault or limits."""
+        """``mbla run``, with limits."""
         return self.commands.run("run", self.deck, "-q", *options, **how)
 
     def over_the_earlier(self, *options: str | Path, **how: Any) -> Ended:
@@ -51,10 +51,6 @@ class Scene:
         """The same, begun."""
         restored(self.out, self.earlier)
         return self.commands.begin("run", self.deck, "-q", "--force")
-
-    def fault(self, call: str, number: int, **what: Any) -> Fault:
-        """A call of the run on a file."""
-        return Fault(str(self.out.parent), call, number, **what)
 
 
 def written(path: Path, text: str = DECK) -> Path:

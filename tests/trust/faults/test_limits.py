@@ -136,3 +136,27 @@ def test_a_folder_where_a_file_should_be(scene: Scene, tmp_path: Path, suffix: s
     folder.mkdir(parents=True)
     assert refused(scene, folder.parent, "--force") == f"mbla: {folder}: is a folder  [folder-given]\n"
     assert list(folder.parent.iterdir()) == [folder]
+
+
+@pytest.mark.long
+@pytest.mark.parametrize(
+    ("name", "arguments"),
+    [
+        ("block_check_blocks.vtu", ("check", "{deck}", "--vtu", "--force", "-o", "{out}")),
+        ("block_cases.csv", ("export", "{result}", "--csv", "--force", "-o", "{out}")),
+        ("a.svg", ("plot", "{result}", "--kind", "forces", "--size", "300x200", "-o", "{out}/a.svg")),
+        ("a.html", ("report", "{result}", "--no-3d", "-o", "{out}/a.html")),
+        ("a.yaml", ("new", "{out}/a.yaml", "--force")),
+    ],
+)
+def test_what_other_commands_wrote_before_stays(
+    scene: Scene, tmp_path: Path, name: str, arguments: tuple[str, ...]
+) -> None:
+    restored(scene.out, scene.new)
+    out = tmp_path / "out"
+    restored(out, {name: b"earlier"})
+    places = {"deck": scene.deck, "result": scene.out / "block.h5", "out": out}
+    ended = scene.commands.run(*(each.format(**places) for each in arguments), limits={"RLIMIT_FSIZE": 2 * WORDS})
+    assert ended.status == 6, ended
+    assert is_one_plain_line(ended.err), ended
+    assert content(out) == {name: b"earlier"}

@@ -14,7 +14,7 @@ import pytest
 
 from mbla.results.hdf5.result_file import read_results_hdf5
 from tests.trust.counts import record_counts
-from tests.trust.faults.scene import Scene, content, is_one_plain_line, restored, without_partial
+from tests.trust.faults.scene import Scene, content, is_one_plain_line, without_partial
 from tests.trust.processes import Commands, Ended
 
 OF_KILLS = (
@@ -71,21 +71,6 @@ def check_interrupted(scene: Scene, ended: Ended, told: object) -> None:
         assert not {"block.h5", "block.lst", "block.sta", "block.json"} & set(same), (told, same)
 
 
-def at_call(scene: Scene, call: str, number: int, which: signal.Signals) -> bool:
-    """A signal right before a call on a file; whether it came."""
-    ended = scene.over_the_earlier(fault=scene.fault(call, number, signal=which))
-    told = (call, number, which.name, ended)
-    if not ended.counts["came"]:
-        assert ended.status == 0, told
-    elif which is signal.SIGKILL:
-        assert ended.status == -which, told
-        check_killed(scene, told)
-    else:
-        assert ended.status == SIGNALS[which], told
-        check_interrupted(scene, ended, told)
-    return bool(ended.counts["came"])
-
-
 def kill_at(scene: Scene, moment: float) -> tuple[bool, bool]:
     """A kill so long after the run began [s]; whether it was still at work, and with files half done."""
     run = scene.begin()
@@ -122,35 +107,9 @@ def _had_not_begun(ended: Ended, which: signal.Signals) -> bool:
     return ended.status == -which or (ended.status == 1 and outside)
 
 
-def every_call(scene: Scene, which: signal.Signals) -> int:
-    """How many calls on files the signal came at."""
-    done = 0
-    for call in ("write", "sync", "rename", "open", "unlink"):
-        number = 1
-        while at_call(scene, call, number, which):
-            number += 1
-        done += number - 1
-    return done
-
-
-@pytest.mark.long
-@pytest.mark.parametrize("which", [*SIGNALS, signal.SIGKILL])
-def test_a_signal_at_a_call(faulty: Commands, scene: Scene, which: signal.Signals) -> None:
-    assert at_call(scene, "rename", 3, which)
-
-
 @pytest.mark.long
 def test_a_run_killed_at_some_moment(scene: Scene) -> None:
     kill_at(scene, 0.6 * scene.lasts)
-
-
-@pytest.mark.long
-def test_a_killed_first_run_is_in_nobodys_way(faulty: Commands, scene: Scene) -> None:
-    restored(scene.out, {})
-    assert scene.run(fault=scene.fault("rename", 5, signal=signal.SIGKILL)).status == -signal.SIGKILL
-    assert "block.sta" in content(scene.out)
-    assert scene.run().status == 0
-    check_whole(scene, content(scene.out), "first run")
 
 
 @pytest.mark.trust
@@ -162,25 +121,27 @@ def test_kills_at_random_moments(scene: Scene) -> None:
         done, half_done, tries = done + killed, half_done + half, tries + 1
     assert done >= KILLS
     assert half_done > KILLS // 4  # or the moments were not those that matter
-    at_calls = every_call(scene, signal.SIGKILL) if scene.commands.shim is not None else 0
-    counts = {"kills": done, "of them with files half done": half_done, "kills at a call on a file": at_calls}
-    record_counts("faults-kills", 51, OF_KILLS, counts)
+    record_counts("faults-kills", 51, OF_KILLS, {"kills": done, "of them with files half done": half_done})
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("which", SIGNALS)
+def test_a_run_that_gets_a_signal(scene: Scene, which: signal.Signals) -> None:
+    signal_at(scene, 0.5 * scene.lasts, which)
 
 
 @pytest.mark.trust
-def test_signals_at_every_call_and_at_random_moments(faulty: Commands, scene: Scene) -> None:
-    at_calls = at_moments = 0
+def test_signals_at_random_moments(scene: Scene) -> None:
+    at_moments = 0
     draw = random.Random(5)
     for which in SIGNALS:
-        at_calls += every_call(scene, which)
         came = tries = 0
         while came < SIGNALS_SENT and tries < 4 * SIGNALS_SENT:
             came += signal_at(scene, draw.random() * scene.lasts, which)
             tries += 1
         assert came >= SIGNALS_SENT
         at_moments += came
-    counts = {"signals at a call on a file": at_calls, "at random moments": at_moments}
-    record_counts("faults-signals", 52, OF_SIGNALS, counts)
+    record_counts("faults-signals", 52, OF_SIGNALS, {"signals at random moments": at_moments})
 
 
 @pytest.mark.trust

@@ -28,6 +28,7 @@ OF_MUTANTS = (
     "A broken geometry file is refused with its fault named, or mended and told, or gives the model of the sound "
     "file; what is left out of a file is told in a warning"
 )
+BROKEN_ONCE = Path(__file__).parent / "broken_once"
 SHORT = 100
 """every so-many-th mutant of those that must be refused is in the short form"""
 SIDES = 289
@@ -75,6 +76,13 @@ def findings(chosen: list[Mutant], folder: Path) -> tuple[Counter[str], list[str
         counts["solved"] += solve and came == "same"
         defects += [f"{mutant.title}: {defect}" for defect in wrong]
     return counts, defects
+
+
+@pytest.mark.parametrize("path", sorted(BROKEN_ONCE.iterdir()), ids=lambda path: path.name)
+def test_a_file_that_broke_the_program_once(path: Path, tmp_path: Path) -> None:
+    item = f"mesh: {{group: stone, material: stone, file: {path.name}}}"
+    found = outcome(tmp_path, item, {path.name: path.read_bytes()}, solve=False)
+    assert found.figures is not None or refusal_defects(found) == []
 
 
 @pytest.mark.long
