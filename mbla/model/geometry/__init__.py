@@ -29,8 +29,6 @@ READERS: dict[str, Callable[[Path], Geometry]] = {
     ".dxf": read_dxf,
 }
 """by extension, in lower case"""
-NOT_READ = (".gltf", ".glb")
-
 
 LARGEST_FILE = 1024**3
 """bytes of a geometry file: some ten million triangles as text"""
@@ -65,9 +63,6 @@ def read_geometry(path: Path) -> Geometry:
         for unknown extensions, files that cannot be read, malformed ones, and files without blocks
     """
     reader = READERS.get(path.suffix.lower())
-    if path.suffix.lower() in NOT_READ:
-        words = "glTF is not read: export it as OBJ, with an object for each block"
-        raise GeometryFileError("geometry-not-read", words)
     if reader is None:
         raise GeometryFileError("geometry-not-read", f"unknown kind of geometry file; known are {', '.join(READERS)}")
     geometry = _read_within_memory(reader, path)
