@@ -51,7 +51,7 @@ class OutputSection(Section):
     vtu: Switch = Field(True, description="VTU and PVD files for ParaView")
     frames: Annotated[int, Integer(ge=2, le=1000)] = Field(11, description="frames of the animation of the mechanism")
     plots: Switch = Field(
-        False, description="pictures of model, mechanisms and forces next to the results, as of ``mbla plot``"
+        False, description="pictures of model, mechanisms and forces beside the results, as `mbla plot` draws them"
     )
     positions: Literal["worst", "all"] = Field(
         "worst", description="positions of a travelling load that have files, pictures and a section of the listing"
@@ -61,15 +61,16 @@ class OutputSection(Section):
 class Expectation(Section):
     """What a load case should give, with its source."""
 
-    load_factor: Number | None = Field(None, description="by the deck's own flow rule")
+    load_factor: Number | None = Field(None, description="load factor by the deck's own flow rule")
     angle: Number | None = Field(None, description="tilt: angle of collapse in degrees")
     position: Count | None = Field(None, description="travel: number of the worst position, from 1")
-    associative_load_factor: Number | None = Field(None, description="by the associative flow rule")
-    reaction: Number | None = Field(None, description="of the support that gives way")
+    associative_load_factor: Number | None = Field(None, description="load factor by the associative flow rule")
+    reaction: Number | None = Field(None, description="reaction of the settling support")
     least: Number | None = Field(None, description="objective: least value of the force")
     greatest: Number | None = Field(None, description="objective: greatest value of the force")
     least_load_factor: Number | None = Field(
-        None, description="without normality, of the states of rigid joints that a search found"
+        None,
+        description="flow other than associative: least load factor of the states of rigid joints that a search found",
     )
     status: Literal["solved", "approximate", "not_verified", "no_equilibrium", "unbounded"] | None = Field(
         None, description="status of the case"
@@ -111,13 +112,13 @@ class DeckContent(Section):
     )
     materials: dict[Name, Material] = Field(min_length=1, description="materials by name")
     joints: dict[Name, JointLaw] = Field(
-        default_factory=dict, description="joint laws by name; frictionless, glued and open are known without"
+        default_factory=dict, description="joint laws by name; frictionless, glued and open need no entry"
     )
     blocks: list[BlockItem] = Field(min_length=1, description="the structure, item by item")
     groups: dict[Name, Selector] = Field(
         default_factory=dict,
-        description="names for choices of blocks, beside the groups of the items: each stands by itself, or in a list, "
-        "wherever blocks are chosen, for the selector given here",
+        description="named selectors, beside the groups of the items: a name stands for its selector, by itself or "
+        "in a list, wherever blocks are chosen",
     )
     contacts: ContactsSection = Field(description="joint law and tolerance of contacts")
     supports: list[Support] = Field(default_factory=list, description="what holds the structure")
@@ -134,10 +135,12 @@ class DeckContent(Section):
         default_factory=list, description="planes that mirror what the deck gives, one after the other"
     )
     load_cases: dict[Name, LoadCaseSection] = Field(min_length=1, description="load cases by name")
-    analysis: AnalysisSection = Field(default_factory=AnalysisSection, description="how it is solved")
-    find: FindSection | None = Field(None, description="what `mbla find` looks for")
-    strengthen: StrengthenSection | None = Field(None, description="what `mbla strengthen` may add, and for what")
-    output: OutputSection = Field(default_factory=OutputSection, description="what is written")
+    analysis: AnalysisSection = Field(default_factory=AnalysisSection, description="how the load factor is computed")
+    find: FindSection | None = Field(None, description="question of `mbla find`")
+    strengthen: StrengthenSection | None = Field(
+        None, description="question of `mbla strengthen`: ties that may be added, load factors that are required"
+    )
+    output: OutputSection = Field(default_factory=OutputSection, description="which files are written")
     expected: dict[Name, Expectation] = Field(
         default_factory=dict, description="figures that `mbla run --expected` compares"
     )

@@ -283,6 +283,6 @@ def test_presets_go_from_rough_to_sharp() -> None:
 
 def test_every_description_says_what_the_presets_set() -> None:
     words = {name: AnalysisSection.model_fields[name].description or "" for name in asdict(PRESETS["draft"])}
-    assert all("set by accuracy unless given: draft " in text for text in words.values())
+    assert all("default by accuracy: draft " in text for text in words.values())
     assert words["gap"].endswith("draft 0.001, standard 3e-07, reference 5e-08")
     assert words["search"].endswith("draft 0, standard 1, reference 4")

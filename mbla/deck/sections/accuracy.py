@@ -75,7 +75,7 @@ def knobs_of(analysis: AnalysisSection) -> Knobs:
 def set_by_accuracy(knob: str) -> str:
     """For the description of a key: what each preset sets it to."""
     values = ", ".join(f"{name} {_in_words(getattr(PRESETS[name], knob))}" for name in get_args(Accuracy))
-    return f"set by accuracy unless given: {values}"
+    return f"default by accuracy: {values}"
 
 
 def _in_words(value: float | bool) -> str:

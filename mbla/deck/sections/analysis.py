@@ -36,19 +36,19 @@ class PublishedScheme(Section):
         description="the sequence stops when the load factor changes by less, relatively, and no force exceeds "
         "its true friction by more than this share of the mean block load",
     )
-    max_programs: Count = Field(60, description="cone programs before the sequence is given up")
+    max_programs: Count = Field(60, description="most cone programs of the sequence")
 
 
 class PathOfJoints(Section):
     """The path of elastic joints, whose greatest load is the load factor without dilatancy."""
 
     ratio: Annotated[float, Quantity("number", ge=0.05, le=2)] = Field(
-        0.4, description="stiffness of a joint along itself over that across it"
+        0.4, description="shear stiffness of a joint over its normal stiffness"
     )
     until: Annotated[float, Quantity("number", ge=5, le=1000)] = Field(
         50.0,
-        description="displacement at which the path ends, over that of the structure at its associative load factor "
-        "with all joints stuck",
+        description="displacement at the end of the path, in elastic displacements: of the structure at its "
+        "associative load factor with all joints stuck",
     )
 
 
@@ -57,24 +57,25 @@ class AnalysisSection(Section):
 
     flow_rule: Literal["associative", "non_associative", "dilatancy", "livesley"] = Field(
         "non_associative",
-        description="associative; non-associative without dilatancy; with the joints' dilatancy; or livesley: "
-        "associative, with one correction that shows whether a mechanism without dilatancy has the same load factor",
+        description="associative: sliding lifts by the friction angle; non_associative: sliding does not lift; "
+        "dilatancy: sliding lifts by the dilatancy angle of each joint; livesley: associative, with a second "
+        "program that shows whether a mechanism without dilatancy has the same load factor",
     )
     contact_model: Literal["concave", "convex"] = Field(
         "concave",
-        description="concave: contact points at the corners of each interface; convex: also its resultants, with "
-        "torsion as of uniform pressure on what an eccentric force leaves of the area. Joints with a compressive "
-        "strength crush as stress blocks in both",
+        description="concave: contact points at the corners of each interface; convex: resultants of each "
+        "interface as well, with torsion of uniform pressure on the area that an eccentric force leaves. In both, "
+        "joints with a compressive strength crush as stress blocks",
     )
     solver: Literal["auto", "mbla", "clarabel"] = Field(
         "auto",
-        description="of the cone programs. mbla: the interior-point method made for them, not with contact_model: "
-        "convex; clarabel: any; auto: mbla or clarabel by size, the results say which",
+        description="solver of the cone programs. mbla: an interior-point method made for them, not with "
+        "contact_model: convex; clarabel: general; auto: by size, the results say which",
     )
     scheme: Literal["auto", "published"] = Field(
         "auto",
-        description="how non-associative flow is solved. auto: the greatest load on the path of joints with a "
-        "stiffness, from the structure at rest under its dead load; published: the procedure of Portioli et al. 2014",
+        description="scheme of non-associative flow. auto: the greatest load on the path of elastic joints, from "
+        "the structure at rest under its dead load; published: the procedure of Portioli et al. 2014",
     )
     path: PathOfJoints = Field(
         default_factory=PathOfJoints, description="flow other than associative: the path of elastic joints"
@@ -84,60 +85,60 @@ class AnalysisSection(Section):
     )
     search: Annotated[float, Quantity("number", ge=0, le=100)] | None = Field(
         None,
-        description="flow other than associative: iterations that may be spent on states of lower load factors, over "
-        "those of the first state that was found; in the plane, and in space where it is given; "
-        + set_by_accuracy("search"),
+        description="flow other than associative: effort to lower the load factor, as a multiple of the iterations "
+        "of the first solve; in space only where it is given; " + set_by_accuracy("search"),
     )
     standing: Switch | None = Field(
         None,
         description="assess whether the structure stands before any live load; "
         + set_by_accuracy("standing")
-        + "; true for flow other than associative, whose load factor depends on it, unless given",
+        + "; true for flow other than associative, whose load factor depends on it",
     )
     sensitivity: Sensitivity = Field(
         False,
-        description="how much the associative load factor changes with parameters. true: friction and strengths of "
-        "every joint law, density of every material, capacity of every tie, sizes of dead and live load; or a list of "
-        "key paths of real numbers in the deck, as `--set` takes them, such as `blocks.0.arch.thickness`",
+        description="sensitivities of the associative load factor. true: to friction and strengths of every joint "
+        "law, density of every material, capacity of every tie, sizes of dead and live load; or a list of key paths "
+        "of real numbers in the deck, as `--set` takes them, such as `blocks.0.arch.thickness`",
     )
     torsion: Switch | None = Field(
         None,
-        description="in space, flow_rule: non_associative: a second path of elastic joints whose interfaces twist "
-        "under uniform pressure: contact points overstate torsion; its load factor stands beside the answer; "
+        description="in space, flow_rule: non_associative: follow a second path, on which interfaces twist under "
+        "uniform pressure, as contact points overstate torsion; its load factor stands beside the answer; "
         + set_by_accuracy("torsion"),
     )
     geometric_safety: Switch = Field(
         False,
-        description="by how much all joints may shrink about their middles before the dead load falls: of an arch the "
-        "thickness over the least one",
+        description="factor by which all joints may shrink about their centroids before the dead load falls: of an "
+        "arch the thickness over the least one",
     )
     reductions: Switch = Field(
         True,
-        description="planar structures are solved with three unknowns a block, parts that cannot interact apart, parts "
-        "without live load only have to stand; associative flow: one half of a symmetric structure, without contact "
-        "points that cannot matter. The answer is the same without",
+        description="leave out what need not be solved: planar structures have three unknowns a block, parts that "
+        "cannot interact are solved apart, parts without live load only have to stand; with associative flow one "
+        "half of a symmetric structure is solved, without contact points that cannot matter. The answer stays the "
+        "same",
     )
     accuracy: Accuracy = Field(
         "standard",
-        description="one word for tolerance, gap, residual, search, torsion and standing. draft: first looks and "
-        "sweeps, error below 1 %; standard: below 1e-4; reference: as close as double precision gives, and "
-        "without dilatancy what joints of other stiffnesses come to",
+        description="preset of tolerance, gap, residual, search, torsion and standing. draft: first looks and "
+        "sweeps, error below 1 %; standard: below 1e-4; reference: to double precision, and without dilatancy the "
+        "load factors for other stiffnesses of joints as well",
     )
     tolerance: Annotated[float, Quantity("number", gt=0, le=1e-3)] | None = Field(
         None, description="relative tolerance of the cone solver; " + set_by_accuracy("tolerance")
     )
     gap: Annotated[float, Quantity("number", gt=0, le=1e-2)] | None = Field(
         None,
-        description="wanted distance of the proved bounds of the associative load factor, relative; further apart, its "
-        "program is solved again by the other method; " + set_by_accuracy("gap"),
+        description="greatest distance of the proved bounds of the associative load factor, relative; where it is "
+        "larger, the program is solved again by the other method; " + set_by_accuracy("gap"),
     )
     residual: Annotated[float, Quantity("number", gt=0, le=1e-2)] | None = Field(
         None,
-        description="flow other than associative: wanted of the largest residual of the joint law of a state that a "
-        "search finds; " + set_by_accuracy("residual"),
+        description="flow other than associative: greatest residual of the joint law of a state that a search "
+        "finds; " + set_by_accuracy("residual"),
     )
-    max_iterations: Count | None = Field(None, description="iterations of the cone solver for one program")
-    time_limit: Time | None = Field(None, description="seconds for all load cases together")
+    max_iterations: Count | None = Field(None, description="most iterations of the cone solver for one program")
+    time_limit: Time | None = Field(None, description="time for all load cases together, seconds")
 
 
 CONVEX_FLOW_RULES = ("associative", "non_associative")

@@ -15,7 +15,7 @@ from mbla.errors import Finding
 
 
 class AboutNormal(Section):
-    """Interfaces whose normal is near a direction, either way round."""
+    """Interfaces whose normal is near a direction or its opposite."""
 
     normal: Direction = Field(description="direction of the normal, not necessarily of length 1")
     within: Annotated[float, Quantity("angle", gt=0, le=90)] = Field(
@@ -30,9 +30,9 @@ Orientation: TypeAlias = Annotated[
 
 
 class ContactOverride(Section):
-    """Another joint law for the interfaces that meet every condition given, at least one of between, orientation, box.
+    """Another joint law for interfaces that meet every condition given, at least one of between, orientation, box.
 
-    Of several overrides that fit an interface the last one holds.
+    The last override that fits an interface holds.
     """
 
     joint: Name = Field(description="name of a joint law; frictionless, glued and open are known everywhere")
@@ -50,26 +50,26 @@ class ContactOverride(Section):
 
 
 class ContactPoints(Section):
-    """Where the contact points of an interface lie: at its corners unless more are asked for."""
+    """Contact points of an interface; default: at its corners."""
 
     per_edge: Annotated[int, Integer(ge=1, le=50)] | None = Field(
         None,
-        description="parts into which they divide each edge, with points inside too (a grid of (n + 1)² on a "
-        "parallelogram); 1: the corners alone, as without the key. Associative flow can load the corners alone, so "
-        "that more points lower torsion only without dilatancy; in a pushover, where points crush, crushing "
-        "comes down to the stress block",
+        description="parts of each edge, with points inside too (a grid of (n + 1)² on a parallelogram); 1: the "
+        "corners alone, as by default. Associative flow can load the corners alone, so that more points lower "
+        "torsion only without dilatancy; in a pushover, where points crush, more points come closer to the stress "
+        "block",
     )
     spacing: PositiveLength | None = Field(
         None, description="instead of per_edge: greatest distance of the points along the edges"
     )
     inset: Annotated[float, Quantity("number", ge=0, lt=1)] = Field(
         0.0,
-        description="share of the way to the centroid that they are moved inwards (shrinking of faces in LMGC90): "
-        "lowers torsion (0.459 is exact for a square), and rocking by the same share",
+        description="share of the way to the centroid by which points are moved inwards (shrinking of faces in "
+        "LMGC90): lowers torsion (0.459 is exact for a square), and rocking by the same share",
     )
     rounding: Annotated[float, Quantity("length", ge=0)] = Field(
         0.0,
-        description="instead of inset: distance by which the edges on which they lie are moved inwards (rounding "
+        description="instead of inset: distance by which the edges that carry points are moved inwards (rounding "
         "length of corners in UDEC)",
     )
 
@@ -83,16 +83,16 @@ class ContactsSection(Section):
     )
     overlap_tolerance: Annotated[float, Quantity("number", gt=0, le=0.1)] | None = Field(
         None,
-        description="greatest overlap, relative to block size, where that of gaps is another; unless given tolerance. "
-        "Faces that reach into each other by no more are in contact, midway; gaps above tolerance stay open. What two "
-        "blocks share counts in the weight of both, and a notice says how much it is",
+        description="greatest overlap, relative to block size; default: tolerance. Faces that overlap by no more "
+        "are in contact, midway; gaps above tolerance stay open. The shared volume counts in the weight of both "
+        "blocks, and a notice says how much it is",
     )
     joint_thickness: PositiveLength | None = Field(
         None,
-        description="greatest thickness of joints that are drawn as gaps: faces that face each other across no more, "
-        "within 20 degrees of parallel, are moved to the plane in the middle of the joint, all of the way to a ground "
-        "plane; free faces stay. The blocks grow, with the density of their material, and a notice says by how much. "
-        "Not with symmetry, nor with table",
+        description="greatest thickness of joints that are drawn as gaps: opposite faces no further apart, within "
+        "20 degrees of parallel, are moved to the plane in the middle of the joint, faces opposite a ground plane "
+        "all of the way; free faces stay. The blocks grow, with the density of their material, and a notice says by "
+        "how much. Not with symmetry, nor with table",
     )
     table: str | None = Field(
         None,
@@ -105,11 +105,14 @@ class ContactsSection(Section):
     )
     isolated: Literal["fail", "allow"] = Field(
         "fail",
-        description="blocks that touch nothing at all, no block and no ground: fail, the run ends with exit status 4; "
-        "allow, it is only reported",
+        description="blocks that touch neither a block nor a ground. fail: the run ends with exit status 4; allow: "
+        "a notice",
     )
     points: ContactPoints = Field(default_factory=ContactPoints, description="where contact points lie")
-    overrides: list[ContactOverride] = Field(default_factory=list, description="the last that fits a contact holds")
+    overrides: list[ContactOverride] = Field(
+        default_factory=list,
+        description="other joint laws for some interfaces; the last override that fits an interface holds",
+    )
 
     @property
     def depth_allowed(self) -> float:

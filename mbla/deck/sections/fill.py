@@ -28,15 +28,15 @@ UPRIGHT = 1e-6
 
 
 class TopPlane(Section):
-    """A plane that slopes, as of a road on a gradient."""
+    """A sloping plane, as of a road on a gradient."""
 
     point: Point = Field(description="a point on it")
     normal: Direction = Field(description="normal, upwards")
 
 
 class Dispersal(Section):
-    """How a load on top of the fill spreads on its way down: along straight lines from where it stands, as far as the
-    angle, in the ways of `law`. The 1:2 rule is `law: uniform` with an angle of 26.565 degrees.
+    """Spread of a load through the fill: along straight lines from the load down, up to the angle, with the density of
+    `law`. The 1:2 rule is `law: uniform` with an angle of 26.565 degrees.
     """
 
     law: Literal["boussinesq", "uniform"] = Field(
@@ -44,41 +44,45 @@ class Dispersal(Section):
         description="boussinesq: as the vertical stress under a line load on an elastic half-space, cut off at the "
         "angle; uniform: the same everywhere within it",
     )
-    angle: SpreadAngle = Field(30.0, description="to both sides of the vertical, in degrees; nothing beyond")
+    angle: SpreadAngle = Field(
+        30.0, description="greatest angle of the spread to the vertical, to both sides, in degrees"
+    )
     contact: PositiveLength | None = Field(
         None,
-        description="uniform: length over which a load stands on the top, such as 0.3 m of a wheel, of a force in both "
-        "directions; it spreads from there; none unless given",
+        description="uniform: length of the top on which a load stands, such as 0.3 m of a wheel, of a force in "
+        "both directions; the load spreads from its ends; default: none",
     )
 
 
 class Passive(Section):
-    """How the soil resists faces that move into it: horizontally, with a share of the passive earth pressure at most,
-    and with the active one at least, K_a to `mobilisation` times K_p of the vertical stress that its weight makes under
-    standard gravity. The shares are a matter of calibration by tests: vary them.
+    """Lateral resistance of the soil at faces that move into it: a horizontal pressure between K_a and `mobilisation`
+    K_p times the vertical stress of the soil under standard gravity (active and passive earth pressure). The shares
+    are calibrated by tests: vary them.
     """
 
     friction_angle: FrictionAngle = Field(30.0, description="φ of the soil: K_p = (1 + sin φ)/(1 − sin φ) = 1/K_a")
     mobilisation: Share = Field(0.33, description="share of the passive pressure that is reached before collapse")
-    cohesion: NonNegativeStress = Field(0.0, description="c of the soil, which adds 2 √K_p c")
-    cohesion_mobilisation: Share = Field(0.01, description="share of that part")
+    cohesion: NonNegativeStress = Field(0.0, description="cohesion c of the soil, which adds 2 √K_p c")
+    cohesion_mobilisation: Share = Field(
+        0.01, description="share of the part of cohesion that is reached before collapse"
+    )
 
 
 @exactly_one_of("level", "surface")
 class Fill(Section):
     """Soil on the upward faces of blocks up to a top surface: exactly one of level and surface.
 
-    The column of soil over each piece of a face, along z, is a mass that moves with the block under it, at the middle
-    of the column: gravity and accelerations act on it. A face carries it where no other block lies above it; of a face
-    that the top surface cuts only what is below. Loads that name the fill with `through` spread in it.
+    The column of soil over each piece of a face, along z, is a mass at the middle of the column, which moves with the
+    block below: gravity and accelerations act on it. A face carries soil where it lies below the top surface and no
+    other block lies above it. Loads that name the fill with `through` spread through it.
     """
 
     on: Selector = Field(description="blocks whose upward faces carry it")
     material: Name = Field(description="material of section materials, for its density")
-    level: Length | None = Field(None, description="height z of its top, where that is level")
-    surface: TopPlane | None = Field(None, description="its top, where that slopes")
-    dispersal: Dispersal = Field(default_factory=Dispersal, description="how loads on top of it spread")
-    passive: Passive | None = Field(None, description="it holds sloping faces sideways too; it does not unless given")
+    level: Length | None = Field(None, description="height z of a level top surface")
+    surface: TopPlane | None = Field(None, description="sloping top surface")
+    dispersal: Dispersal = Field(default_factory=Dispersal, description="how loads on the top spread through the fill")
+    passive: Passive | None = Field(None, description="lateral resistance of the soil at sloping faces; default: none")
 
 
 @rule(Passive)

@@ -1,4 +1,4 @@
-"""Section `find`: the value of a parameter at which a result is what it should be."""
+"""Section `find`: the value of a parameter at which a result is a target."""
 
 from __future__ import annotations
 
@@ -18,10 +18,12 @@ TOLERANCE = 1e-6
 
 
 class TargetSection(Section):
-    """What the result should be; one of these."""
+    """Target of the result; one of these keys."""
 
-    load_factor: Number | None = Field(None, description="by the flow rule of the analysis")
-    least_load_factor: Number | None = Field(None, description="the least that is found without dilatancy")
+    load_factor: Number | None = Field(None, description="load factor, by the flow rule of the analysis")
+    least_load_factor: Number | None = Field(
+        None, description="the smaller of the load factor and the least that a search finds"
+    )
     stands: Switch | None = Field(
         None,
         description="true: the limit at which the dead load is just carried, whatever the live load; measured by the "
@@ -33,17 +35,19 @@ EXACTLY_ONE[TargetSection] = tuple(TargetSection.model_fields)  # its rule is th
 
 
 class FindSection(Section):
-    """What `mbla find` looks for; options of the command go before it. `mbla run` takes no notice of it."""
+    """Question of `mbla find`; options of the command replace these keys. `mbla run` ignores the section."""
 
     parameter: Line = Field(description="key path of a real number in the deck, as `--set` takes it")
     target: TargetSection = Field(description="what the result should be")
     bounds: tuple[Number, Number] = Field(description="least and greatest value, in the deck's units")
-    load_case: Name | None = Field(None, description="which one; needed where there are several")
+    load_case: Name | None = Field(
+        None, description="load case whose result is looked at; needed where there are several"
+    )
     scan: Annotated[int, Integer(ge=1, le=MOST_STEPS)] = Field(
-        1, description="equal steps from bound to bound, each of which is looked at: more than 1 finds several values"
+        1, description="equal steps from bound to bound, each of which is solved: more than 1 finds several values"
     )
     tolerance: Annotated[float, Quantity("number", gt=0, le=0.1)] = Field(
-        TOLERANCE, description="of the value, relative to the larger of the bounds"
+        TOLERANCE, description="tolerance of the value, relative to the larger of the bounds"
     )
 
 

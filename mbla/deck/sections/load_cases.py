@@ -19,29 +19,30 @@ from mbla.errors import Finding
 
 STEPS_OF_TWICE_THE_SIZE = (
     "make steps of twice the size as well, which takes half as long again: the difference is the error of each load "
-    "factor, to first order, and of where the curve ends. Without them these errors are not known"
+    "factor, to first order, and of the end of the curve; without these steps the errors are not known"
 )
 
 ASKED = ("live", "settlement", "objective")
-"""Keys of a load case that say what is sought, of which it has at least one."""
+"""Keys of a load case that ask its question; it has at least one of them."""
 
 
 @exactly_one_of("direction", "turn")
 class SettlementSection(Section):
-    """A support that gives way: blocks that `supports` fixes move as one rigid body, in one way only."""
+    """A settling support: blocks that `supports` fixes move as one rigid body, along one admissible motion."""
 
     on: Selector = Field(description="the blocks that give way; `supports` fixes them otherwise")
     direction: Direction | None = Field(
-        None, description="the way they go: [0, 0, -1] for a support that sinks, horizontal for one that spreads"
+        None,
+        description="direction of the motion: [0, 0, -1] for a support that sinks, horizontal for one that spreads",
     )
-    turn: Turn | None = Field(None, description="or the line about which they turn")
+    turn: Turn | None = Field(None, description="in place of direction: the line about which the support turns")
     amount: PositiveLength | None = Field(
         None,
-        description="how far they go: the reaction is followed as the structure moves with them, until nothing carries "
-        "it any more; with direction. Only the first movement unless given. Of several supports all have it or none: "
-        "they go in proportion to their amounts, as far as each other without",
+        description="displacement up to which the reaction is followed as the structure moves, until nothing "
+        "carries it any more; with direction. Default: only the first movement. Of several supports all have an "
+        "amount or none: they move in proportion to their amounts, without amounts equally far",
     )
-    step: PositiveLength | None = Field(None, description="displacement in a step; a fiftieth of amount unless given")
+    step: PositiveLength | None = Field(None, description="displacement in a step; default: a fiftieth of amount")
     error: bool = Field(True, description=STEPS_OF_TWICE_THE_SIZE)
 
 
@@ -54,41 +55,45 @@ Settlements: TypeAlias = Annotated[
 
 
 class ControlSection(Section):
-    """Whose displacement a pushover counts."""
+    """Control point of a pushover, whose displacement is counted."""
 
     on: Selector | None = Field(
         None,
-        description="the blocks whose common centre of mass is followed; the centre of the live load on what moves at "
-        "first unless given",
+        description="blocks whose common centre of mass is followed; default: live-load centre on the initial "
+        "mechanism",
     )
     direction: Direction | None = Field(
-        None, description="the way in which its displacement counts; that of the live load on what moves unless given"
+        None,
+        description="direction in which the displacement counts; default: that of the live load on the initial "
+        "mechanism",
     )
 
 
 class PushoverSection(Section):
-    """How far the structure is pushed after its first crack, and by which steps."""
+    """Finite displacements after the first movement: their steps and their end."""
 
     step: PositiveLength = Field(description="displacement of the control point in a step")
     until: PositiveLength | None = Field(
-        None, description="displacement at which to end; the one at which the load factor is nothing unless given"
+        None, description="displacement at the end; default: where the load factor reaches its end"
     )
     until_load_factor: Number | None = Field(
         None,
-        description="load factor at which to end, as it falls: below 0 the curve goes on behind the displacement at "
-        "which nothing is left, with the load factors that hold back what would fall by itself. 0 unless given",
+        description="load factor at the end, as it falls; default: 0. Below 0 the curve goes on with the load "
+        "factors that hold back a structure that would fall by itself",
     )
-    steps: Annotated[int, Integer(ge=1, le=100_000)] = Field(500, description="steps at most")
+    steps: Annotated[int, Integer(ge=1, le=100_000)] = Field(500, description="most steps")
     error: bool = Field(True, description=STEPS_OF_TWICE_THE_SIZE)
-    control: ControlSection = Field(default_factory=ControlSection, description="whose displacement is counted")
+    control: ControlSection = Field(
+        default_factory=ControlSection, description="control point, whose displacement is counted"
+    )
     position: Annotated[int, Integer(ge=1, le=1000)] | None = Field(
-        None, description="with `travel`: the position at which the structure is pushed, from 1; the worst unless given"
+        None, description="with `travel`: the position at which the structure is pushed, from 1; default: the worst"
     )
 
 
 class LoadCaseSection(Section):
-    """Dead loads stay, live loads are multiplied by the load factor; or a support gives way under the dead loads; or a
-    force is sought at a given load factor.
+    """Loads, and the question about them: dead loads are constant, live loads are multiplied by the load factor; or a
+    support settles under the dead loads; or a force is looked for at a given load factor.
     """
 
     model_config = ConfigDict(
@@ -103,35 +108,34 @@ class LoadCaseSection(Section):
     live: list[Load] | None = Field(None, min_length=1, description="the loads that the load factor multiplies")
     settlement: Settlements | None = Field(
         None,
-        description="in place of live: a support that gives way, free of other supports, or a list of several that "
-        "give way together, each along its direction, in proportion to their amounts; the answer is the mechanism "
-        "and the reaction with which the support meets it, the least that equilibrium allows; negative where the "
-        "support must be pushed that way, as with springings that close in. The load factor is the loss of reaction, "
-        "from that of the structure at rest on, over the weight of the free blocks. Of several supports the "
-        "reaction is the sum of theirs, each against its direction and times its amount over the greatest amount: what "
-        "does the work of all of them in the displacement of the one that goes farthest",
+        description="in place of live: a settling support, or a list of several that settle together, each along "
+        "its direction, in proportion to their amounts. The answer is the mechanism and the least reaction of the "
+        "support that equilibrium allows; it is negative where the support must be pushed along, as springings that "
+        "close in must. The load factor is the normalised loss of reaction: from that of the structure at rest, "
+        "over the weight of the free blocks. Of several supports the reaction is the sum of their reactions, each "
+        "against its direction and times its amount over the greatest amount: it does the work of all of them in "
+        "the displacement of the one that goes furthest",
     )
     objective: ObjectiveSection | None = Field(
         None,
-        description="in place of the load factor: the least and the greatest value of a force, over all forces in the "
-        "joints that balance the loads within the joints' strengths. Every state of the structure lies between the "
-        "two, whatever its flow rule",
+        description="in place of the load factor: the least and the greatest value of a force, over all forces in "
+        "the joints that balance the loads within the strengths of the joints. Every state of the structure lies "
+        "between the two, whatever its flow rule",
     )
     at: Number | None = Field(
         None,
-        description="with objective and live: the load factor at which the force is sought. Without live: under the "
-        "dead loads alone",
+        description="with objective and live: the load factor at which the force is looked for; without live the "
+        "force is that under the dead loads",
     )
     pushover: PushoverSection | None = Field(
         None,
         description="after limit analysis: the load factor as the structure moves by finite displacements, step by "
-        "step; loads keep their direction. With `tilt` the angle of the table, with `travel` at one "
-        "position",
+        "step; loads keep their direction. With `tilt` the angle of the table, with `travel` at one position",
     )
     assessment: AssessmentSection | None = Field(
         None,
-        description="what a code says of the mechanism that a horizontal acceleration of all blocks brings about; by "
-        "displacements too where there is a `pushover`",
+        description="verdict of a code on the mechanism that a horizontal acceleration of all blocks brings about; "
+        "with `pushover` by displacements too",
     )
 
 
@@ -146,7 +150,7 @@ def followed_settlement(settlement: SettlementSection) -> Iterator[Finding]:
 
 
 def supports_of(section: LoadCaseSection) -> list[SettlementSection]:
-    """The supports that give way in a load case; none where nothing settles."""
+    """The settling supports of a load case."""
     if section.settlement is None:
         return []
     return section.settlement if isinstance(section.settlement, list) else [section.settlement]
@@ -154,7 +158,7 @@ def supports_of(section: LoadCaseSection) -> list[SettlementSection]:
 
 @rule(LoadCaseSection)
 def several_settlements(case: LoadCaseSection) -> Iterator[Finding]:
-    """Supports that give way together slide, all with an amount or none, by one step."""
+    """Supports that settle together slide, all with an amount or none, by one step."""
     supports = supports_of(case)
     if len(supports) < 2:
         return

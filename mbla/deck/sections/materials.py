@@ -43,13 +43,13 @@ class JointLaw(Section):
     """
 
     friction: NonNegativeNumber | None = Field(
-        None, description="friction coefficient, tan of the friction angle; what is above 1e6 counts as that"
+        None, description="friction coefficient, tan of the friction angle; capped at 1e6"
     )
     friction_angle: FrictionAngle | None = Field(None, description="friction angle in degrees")
     cohesion: NonNegativeStress = Field(0.0, description="shear strength without normal stress")
     tensile_strength: NonNegativeStress = Field(0.0, description="normal stress at which the joint opens")
     compressive_strength: PositiveStress | None = Field(
-        None, description="normal stress at which it crushes; unlimited unless given"
+        None, description="normal stress at which the joint crushes; default: unlimited"
     )
     dilatancy: FrictionAngle = Field(0.0, description="dilatancy angle in degrees, at most the friction angle")
 

@@ -1,4 +1,4 @@
-"""Key `objective` of a load case: the force whose least and greatest value is sought, in place of a load factor."""
+"""Key `objective` of a load case: a force, whose least and greatest value take the place of a load factor."""
 
 from __future__ import annotations
 
@@ -16,30 +16,32 @@ SIDES = ("from_", "on")
 
 
 class ForceSection(Section):
-    """The force that some bodies exert on others through all joints between them, ties apart, along a direction."""
+    """The force of some bodies on others along a direction, through all joints between them, without ties."""
 
     model_config = ConfigDict(json_schema_extra={"anyOf": [{"required": ["from"]}, {"required": ["on"]}]})
 
     from_: Selector | None = Field(
         None,
         alias="from",
-        description="blocks that exert it, free or fixed; unless given all that does not move, ground and fixed blocks",
+        description="blocks that exert the force, free or fixed; default: ground and fixed blocks",
     )
-    on: Selector | None = Field(None, description="blocks on which it acts; all other blocks unless given")
+    on: Selector | None = Field(None, description="blocks on which the force acts; default: all other blocks")
     direction: Direction = Field(description="along which it is measured; a force the other way is negative")
 
 
 @exactly_one_of("force", "tie")
 class ObjectiveSection(Section):
-    """What is sought: least and greatest over all forces that balance the loads within the strengths of the joints."""
+    """The force, least and greatest over all forces in the joints that balance the loads within their strengths."""
 
     force: ForceSection | None = Field(
         None, description="the force through a cut: the reaction of a support, the thrust in a joint of an arch"
     )
     tie: Name | None = Field(
-        None, description="name of ties in `ties`, or their form: their force, tension positive; of several the sum"
+        None,
+        description="name of ties in `ties`, or their form: the force of the tie, tension positive; of several "
+        "ties the sum",
     )
-    index: Index | None = Field(None, description="which of the ties of that name, from 0 as in results")
+    index: Index | None = Field(None, description="number among the ties of that name, from 0 as in results")
 
 
 @rule(ObjectiveSection)

@@ -1,4 +1,4 @@
-"""Section `strengthen`: what ``mbla strengthen`` may add to a structure, and what it has to carry then."""
+"""Section `strengthen`: ties that ``mbla strengthen`` may add, and load factors that the structure has to carry."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ class Across(Section):
 
     between: tuple[Selector, Selector] = Field(description="the two walls")
     along: Direction | None = Field(
-        None, description="their way; unless given along the axis on which the walls lie apart the most"
+        None, description="direction of the ties; default: the axis along which the walls lie furthest apart"
     )
     z: Annotated[list[Length], Field(min_length=1)] = Field(description="heights, such as those of floors")
     every: PositiveLength = Field(description="distance between them along the walls; none where they miss a block")
@@ -51,7 +51,7 @@ class Vertical(Section):
 class Candidate(Section):
     """Ties that may be added, each with a capacity from nothing to `most`."""
 
-    name: Name | None = Field(None, description="of the ties; the pattern unless given")
+    name: Name | None = Field(None, description="name of the ties; default: the pattern")
     across: Across | None = Field(None, description="from wall to wall")
     ring: Ring | None = Field(None, description="round a building, one at each height")
     vertical: Vertical | None = Field(None, description="down to the foundation")
@@ -62,11 +62,11 @@ class Candidate(Section):
         None, description="through: the block of each point, or ground, as of ties"
     )
     cost: PositiveNumber = Field(1.0, description="of a unit of capacity over a unit of length, in any currency")
-    most: PositiveForce | None = Field(None, description="greatest capacity, also once rounded up; any unless given")
+    most: PositiveForce | None = Field(None, description="greatest capacity, also once rounded up; default: any")
 
 
 class StrengthenSection(Section):
-    """What ``mbla strengthen`` looks for: the cheapest capacities with which all load cases are carried."""
+    """Question of `mbla strengthen`: the cheapest capacities with which the structure carries all load cases."""
 
     required: dict[Name, NonNegativeNumber] = Field(
         min_length=1, description="load factor that each load case has to carry"
@@ -74,8 +74,8 @@ class StrengthenSection(Section):
     candidates: list[Candidate] = Field(min_length=1, description="what may be added")
     catalogue: Annotated[list[PositiveForce], Field(min_length=1)] | None = Field(
         None,
-        description="capacities that there are, to which those found are rounded up; above the greatest, of those up "
-        "to `most`, to the least sum of several, which are beside each other; any unless given",
+        description="capacities that can be bought, to which those found are rounded up; above the greatest, of "
+        "capacities up to `most`, to the least sum of several ties side by side; default: any capacity",
     )
 
 

@@ -35,10 +35,10 @@ class GroundPlane(Plane):
 class SymmetryPlane(Plane):
     """A plane of symmetry: exactly one of x, y, z (normal along that axis), or a point and a normal.
 
-    Blocks, supports, guides, settlements and forces given in the deck appear on both sides, images in the groups of
-    what they are images of; results are those of the whole structure. A block with a face on the plane meets its image
-    there, with the joint law that contacts gives for the two. Of several planes each mirrors what those before it have
-    made, and its halves are chosen from that.
+    Blocks, supports, guides, settlements and forces of the deck appear on both sides, each image in the group of its
+    original; results are those of the whole structure. A block with a face on the plane meets its image there, with the
+    joint law that contacts gives for the two. Several planes act one after the other: each mirrors the structure that
+    the planes before it have made, and chooses its halves from that.
     """
 
     halves: Selector | None = Field(
@@ -59,10 +59,10 @@ def plane_normal(plane: Plane) -> Iterator[Finding]:
 class Surface(Section):
     """Rigid ground that ends at an outline, inclined as it may be: a polygon, or the flat faces of a file.
 
-    It carries the faces of blocks that lie on it, each as far as it lies on it, from the side on which these blocks
-    are; from both where blocks lie on both. Blocks may reach past its outline below its plane. Of a file every flat
-    face, or several that lie in one plane and share edges, is a surface. Flat faces among the blocks of a `mesh` are
-    taken by its keys `supports` and `flat_faces`.
+    The surface carries the part of each block face that lies on it, from the side of the block, or from both sides.
+    Blocks may reach past the outline below the plane of the surface. Every flat face of a file, or several faces that
+    lie in one plane and share edges, is a surface. Flat faces among the blocks of a `mesh` are taken by its keys
+    `supports` and `flat_faces`.
     """
 
     polygon: Annotated[list[Point], Field(min_length=3)] | None = Field(
@@ -72,10 +72,10 @@ class Surface(Section):
         None, min_length=1, description="geometry file of open surfaces, as of a mesh; relative to the deck"
     )
     units: FileUnit | None = Field(None, description="unit of length of the file, as of a mesh")
-    scale: PositiveNumber | None = Field(None, description="factor on the file's coordinates, 1 unless given")
+    scale: PositiveNumber | None = Field(None, description="factor on the file's coordinates; default: 1")
     up: Literal["z", "y"] | None = Field(None, description="axis of the file that points upwards, as of a mesh")
     members: Names | None = Field(
-        None, description="objects, groups or layers of the file to take, by name; all unless given"
+        None, description="objects, groups or layers of the file to take, by name; default: all"
     )
 
 
@@ -99,21 +99,22 @@ Component = Literal["x", "y", "z", "rx", "ry", "rz"]
 
 
 class Support(Section):
-    """Rigid ground under every face on a plane or on a surface that ends, blocks that do not move, or blocks that may
-    move in given ways only.
+    """Rigid ground under every face on a plane or a bounded surface, fixed blocks, or guided blocks with given
+    admissible motions.
     """
 
-    ground: GroundPlane | None = Field(None, description="rigid ground without an end")
+    ground: GroundPlane | None = Field(None, description="rigid ground on an unbounded plane")
     surface: Surface | None = Field(None, description="rigid ground within an outline")
-    joint: Name | None = Field(None, description="joint law on the ground or surface; that of contacts unless given")
+    joint: Name | None = Field(None, description="joint law on the ground or surface; default: that of contacts")
     blocks: Selector | None = Field(
         None,
-        description="blocks that do not move, or only as given; with ground or surface: all that it carries",
+        description="blocks that are fixed, or held as `fixed`, `slide` and `turn` say; with ground or surface: "
+        "the only blocks that it carries",
     )
     fixed: Annotated[list[Component], Field(min_length=1)] | None = Field(
         None,
-        description="which displacements, and rotations about the centroid, are held: all six unless given; the "
-        "support takes whatever force that needs, in both senses and without friction",
+        description="displacements, and rotations about the centroid, that are held; default: all six. The support "
+        "takes any force, in both senses and without friction",
     )
     slide: Direction | None = Field(None, description="the blocks may slide along this direction, both ways")
     turn: Turn | None = Field(
@@ -121,14 +122,14 @@ class Support(Section):
     )
     together: Switch | None = Field(
         None,
-        description="true: the blocks move as one rigid body, with fixed: about their common centroid; each by itself "
-        "unless given",
+        description="true: the blocks move as one rigid body, with fixed: about their common centroid; default: "
+        "each by itself",
     )
 
 
 @rule(Support)
 def support(item: Support) -> Iterator[Finding]:
-    """Ground, or blocks that do not move, or not as they like."""
+    """Ground, fixed blocks, or guided blocks."""
     kinds = given(item, ("ground", "surface"))
     if not kinds and item.blocks is None:
         yield Finding("missing-key", "needs one of ground, surface or blocks")
@@ -153,7 +154,7 @@ def support(item: Support) -> Iterator[Finding]:
 
 @rule(Support)
 def guide(item: Support) -> Iterator[Finding]:
-    """Ways to move that are ways."""
+    """Admissible motions have a direction."""
     fixed = item.fixed or []
     for number, component in enumerate(fixed):
         if component in fixed[:number]:

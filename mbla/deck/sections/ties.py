@@ -33,16 +33,18 @@ BreaksAt: TypeAlias = Annotated[
 
 
 class Plate(Section):
-    """A round anchor plate on a wall: punching of the wall, or the cone that it tears out, limits the force."""
+    """A round anchor plate on a wall: the wall limits the force, by punching or by the cone that is torn out."""
 
     diameter: PositiveLength = Field(description="of the plate")
     wall: PositiveLength = Field(description="thickness of the wall that it bears on")
-    shear_strength: PositiveStress | None = Field(None, description="of the wall, for punching")
-    tensile_strength: PositiveStress | None = Field(None, description="of the wall, for the cone of tension")
+    shear_strength: PositiveStress | None = Field(None, description="shear strength of the wall, for punching")
+    tensile_strength: PositiveStress | None = Field(
+        None, description="tensile strength of the wall, for the cone that is torn out"
+    )
 
 
 class Ring(Section):
-    """Closed round the plan of some blocks, at one height or several."""
+    """A closed tie round the plan of some blocks, at one height or several."""
 
     around: Selector = Field(description="the blocks that it goes round: along the convex outline of their plan there")
     z: Annotated[list[Length], Field(min_length=1)] = Field(description="its height; a ring at each of several")
@@ -50,9 +52,9 @@ class Ring(Section):
 
 @exactly_one_of(*FORMS)
 class TieSection(Section):
-    """A tie, strut, ring or strip, or several alike; it weighs nothing, and its force has the limits given here."""
+    """A tie, strut, ring or strip, or several alike, without weight: a force along a line, within limits."""
 
-    name: Name | None = Field(None, description="of the tie in results; its form and number unless given")
+    name: Name | None = Field(None, description="name of the tie in results; default: its form and number")
     through: Annotated[list[Point], Field(min_length=2, max_length=1000)] | None = Field(
         None, description="where it begins, the points that it passes, where it ends; first point again: closed"
     )
@@ -64,33 +66,35 @@ class TieSection(Section):
     )
     on: Annotated[list[Selector], Field(min_length=2, max_length=1000)] | None = Field(
         None,
-        description="for each point of through: the block that it is fixed to, or `ground` for what does not move "
-        "outside of the model; unless given the block at the point",
+        description="for each point of through: the block to which it is fixed, or `ground` for a fixed point "
+        "outside of the model; default: the block at the point",
     )
     acts: Literal["tension", "compression", "both"] = Field(
-        "tension", description="sense of its force: a tie, a strut, or a bar that takes both"
+        "tension", description="tension: a tie; compression: a strut; both: a bar"
     )
     points: Literal["passes", "fixed"] = Field(
         "passes",
-        description="between its ends: passes, it slides there without friction and has one force; fixed, it is held "
-        "there and has a force in each stretch",
+        description="between the ends. passes: the tie slides at its points without friction and has one force; "
+        "fixed: it is fixed at its points and has a force in each stretch",
     )
     capacity: PositiveForce | None = Field(None, description="greatest force")
     area: PositiveArea | None = Field(None, description="cross-section, with strength")
-    diameter: PositiveLength | None = Field(None, description="of a round bar, in place of area")
-    strength: PositiveStress | None = Field(None, description="stress at which it yields, or that it may have")
-    anchorage: PositiveForce | None = Field(None, description="greatest force of its anchors, where that is less")
-    plate: Plate | None = Field(None, description="anchor plate, whose wall may limit the force")
+    diameter: PositiveLength | None = Field(None, description="diameter of a round bar, in place of area")
+    strength: PositiveStress | None = Field(
+        None, description="stress at which the tie yields; times the area its capacity"
+    )
+    anchorage: PositiveForce | None = Field(None, description="greatest force of the anchors, where that is less")
+    plate: Plate | None = Field(None, description="anchor plate, where the wall behind it limits the force")
     prestress: PositiveForce | None = Field(
         None,
-        description="force that it is given when it is fitted: it counts in whether the structure stands, and in no "
-        "load factor, which is that of all forces that it can have",
+        description="force of the tie when it is installed: it counts for standing; a load factor does not depend "
+        "on it",
     )
     breaks_at: BreaksAt | None = Field(
         None,
-        description="in a pushover: elongation over length, or shortening of what is pushed, at which it breaks; 0: "
-        "brittle, as soon as it yields; `never`: it yields without end, as all but strips do unless given. A strip is "
-        "brittle unless it is `never`: glue lets go by a slip of tenths of a millimetre (CNR-DT 200 R1/2013)",
+        description="in a pushover: elongation over length (of a strut shortening) at which the tie breaks; 0: "
+        "brittle, as soon as it yields; `never`: it yields without end. Default: never, of strips 0, as glue lets "
+        "go by a slip of tenths of a millimetre (CNR-DT 200 R1/2013)",
     )
     repeat: Repeat = Field(default_factory=list, description="copies, as of items")
 
