@@ -73,7 +73,7 @@ GIVEN_TO_IT = {
     "solution/pushover/record.py": "rows of a pushover",
     "solution/further/further.py": "the claim of further results",
     "solution/further/geometric_safety/geometric_safety.py": "the claim of a factor of safety",
-    "solution/further/geometric_safety/pressed.py": "loads of pressed joints",
+    "solution/further/geometric_safety/reference_pressure.py": "loads under a pressure in all joints",
     "solution/further/sensitivity/slopes.py": "the claim of slopes",
     "solution/further/strengthening/strengthening.py": "what may be added to a structure",
     "solution/further/sensitivity/structures.py": "a structure with another parameter",

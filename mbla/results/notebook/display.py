@@ -34,8 +34,8 @@ def run_html(run: Run) -> str:
     """Title, table of all load cases, warnings, and one picture."""
     title = escape(run.records.model.title or run.records.deck.name)
     warnings = "".join(f'<p style="color: {WARNING}">{escape(str(each))}</p>' for each in run.warnings)
-    pictured = run.pictured
-    picture = "" if pictured is None else _picture(pictured)
+    case = run.representative_case
+    picture = "" if case is None else _picture(case)
     return f"<div><strong>{title}</strong>{_table(run.records.model, run.cases)}{warnings}{picture}</div>"
 
 

@@ -127,7 +127,7 @@ class Run:
         return {name: table.to_pandas() for name, table in tables_of(self.records, tables).items()}
 
     @property
-    def pictured(self) -> Case | None:
+    def representative_case(self) -> Case | None:
         """The load case whose picture stands for the run: that with the least load factor, or else the first.
 
         Load factors of supports that give way and of tilting tables are of another kind and do not count.

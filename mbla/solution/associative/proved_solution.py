@@ -145,7 +145,7 @@ def solve_until_proved(run: AssociativeRun, form: AssociativeForm, solution: Con
     solution : of the form, by the first method
     """
     proof = run.settings.proof
-    first = best = _judged(run, form, solution)
+    first = best = _with_proof(run, form, solution)
     sharpest = replace(run.settings, tolerance=min(run.settings.tolerance, proof.sharpest))
     other = replace(run.settings, tolerance=max(proof.sharper * run.settings.tolerance, proof.sharpest))
     if run.settings.solver == "auto":
@@ -188,10 +188,10 @@ def _answer(run: AssociativeRun, form: AssociativeForm, unit: float, settings: S
     solution = solved_once(run, solver, "associative", unit)
     if unit != 1.0:
         solution = replace(solution, x=solution.x * unit, objective=solution.objective * unit)
-    return _judged(run, form, solution)
+    return _with_proof(run, form, solution)
 
 
-def _judged(run: AssociativeRun, form: AssociativeForm, solution: ConeSolution) -> ProvedSolution:
+def _with_proof(run: AssociativeRun, form: AssociativeForm, solution: ConeSolution) -> ProvedSolution:
     """A solution, and what of it can be proved."""
     if solution.status in (Status.TIME_LIMIT, Status.ITERATION_LIMIT, Status.UNBOUNDED):
         return ProvedSolution(solution, form)

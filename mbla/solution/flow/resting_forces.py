@@ -16,8 +16,8 @@ from mbla.solution.law.interfaces import Interfaces
 from mbla.solution.settings import SolverSettings
 from mbla.solution.standing.standing import least_forces
 
-LEFT = 0.01
-"""Share of the largest force that a block is left with, from which a block does not carry its loads."""
+UNBALANCED = 0.01
+"""Unbalanced force of a block, over the largest of all blocks, from which joints do not carry its loads."""
 
 
 def resting_forces(program: Program, interfaces: Interfaces, settings: SolverSettings, log: Log) -> FloatArray | None:
@@ -45,5 +45,5 @@ def rows_not_carried(part: ChosenPart, interfaces: Interfaces) -> BoolArray | No
         return None
     of_block = np.abs(joints.unbalanced(at_rest.state)[: len(program.dead_load)])
     of_block = of_block.reshape(-1, 3 if program.components == 2 else 6).max(axis=1)
-    left = np.repeat(of_block > LEFT * of_block.max(), len(program.dead_load) // len(of_block))
-    return np.asarray(part.lifted(left) > 0.0)
+    unbalanced = np.repeat(of_block > UNBALANCED * of_block.max(), len(program.dead_load) // len(of_block))
+    return np.asarray(part.lifted(unbalanced) > 0.0)

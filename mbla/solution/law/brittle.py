@@ -18,8 +18,8 @@ from mbla.solution.law.elastic_joints import ElasticJoints, Memory, StepState
 GONE = 1e-7
 """Stiffness of what has broken over that of a joint."""
 
-LEFT = 0.01
-"""Share of its strength with which a point that has broken goes into the next step, where it loses that too."""
+REMAINING_STRENGTH = 0.01
+"""Share of its strength that a broken point has at the start of the next step, in which it loses that too."""
 
 
 def share_until_break(joints: ElasticJoints, memory: Memory, moved: FloatArray) -> tuple[float, IntArray]:
@@ -54,7 +54,7 @@ def let_go(joints: ElasticJoints, state: StepState, points: IntArray, sigma: flo
     """A state in which broken points have hardly a force, before the structure has answered."""
     normal, opening = state.normal.copy(), state.opening.copy()
     none = force_of_none(joints)
-    normal[points] = none[points] + LEFT * (joints.program.limits.compression - none)[points]
+    normal[points] = none[points] + REMAINING_STRENGTH * (joints.program.limits.compression - none)[points]
     opening[points] = sigma / (normal + joints.program.limits.tension)[points]
     crushing = state.crushing.copy()
     broken = np.isin(joints.crushable, points)

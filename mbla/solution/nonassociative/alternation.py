@@ -15,9 +15,9 @@ so that G falls with every program (alternate convex search: Gorski, Pfeuffer an
 doi:10.1007/s00186-007-0161-1). The motion program alone, with averaged normal forces, is the published procedure
 (``published``), which chooses forces that happen to belong to a motion, not those that fit it best.
 
-The tilt τ > 0 prefers lower load factors. G is an exact penalty: for small τ the forces are still those of a state of
-the law, and the ones of the least load factor for its mechanism; for larger ones the pair leaves the law a little, and
-comes back to it at another, lower mechanism.
+The penalty τ > 0 on the load factor prefers lower ones. G is an exact penalty: for small τ the forces are still those
+of a state of the law, and the ones of the least load factor for its mechanism; for larger τ the pair leaves the law a
+little, and comes back to it at another, lower mechanism.
 """
 
 from __future__ import annotations
@@ -86,31 +86,31 @@ class Alternation:
         """The program of the motion against given friction."""
         return kinematic_form(self.program, self._lagged(np.zeros(self.program.n_points)), reduce_dry=False)
 
-    def states(self, normal: FloatArray, tilts: Iterable[float] = repeat(0.0)) -> Iterator[CollapseState]:
-        """States of pairs of programs, one for each tilt, or until one of them has no solution.
+    def states(self, normal: FloatArray, penalties: Iterable[float] = repeat(0.0)) -> Iterator[CollapseState]:
+        """States of pairs of programs, one for each penalty, or until one of them has no solution.
 
         normal : (n_points,) normal forces to start from
-        tilts  : τ of each pair
+        penalties : τ of each pair
         """
-        return self.states_from(self.motion_for(normal), tilts)
+        return self.states_from(self.motion_for(normal), penalties)
 
     def states_from(
-        self, velocities: FloatArray | None, tilts: Iterable[float] = repeat(0.0)
+        self, velocities: FloatArray | None, penalties: Iterable[float] = repeat(0.0)
     ) -> Iterator[CollapseState]:
         """The same from velocities, (n_rows,); none from None."""
-        for tilt in tilts:
-            found = None if velocities is None else self.pair(velocities, tilt)
+        for penalty in penalties:
+            found = None if velocities is None else self.pair(velocities, penalty)
             if found is None:
                 return
             state, velocities = found
             yield state
 
-    def pair(self, velocities: FloatArray, tilt: float) -> tuple[CollapseState, FloatArray | None] | None:
+    def pair(self, velocities: FloatArray, penalty: float) -> tuple[CollapseState, FloatArray | None] | None:
         """The state of the forces for velocities, (n_rows,), and the velocities for these forces, if there are any.
 
         None without forces.
         """
-        found = self.forces_for(velocities, tilt)
+        found = self.forces_for(velocities, penalty)
         if found is None:
             return None
         forces, load_factor = found
@@ -137,10 +137,10 @@ class Alternation:
         """Cost of the motion program, (n_unknowns,), with the friction of normal forces, (n_points,)."""
         return form.cost_for(self._lagged(normal))
 
-    def forces_for(self, velocities: FloatArray, tilt: float) -> tuple[FloatArray, float] | None:
+    def forces_for(self, velocities: FloatArray, penalty: float) -> tuple[FloatArray, float] | None:
         """Forces, (n_points, components), and load factor for velocities, (n_rows,); None without a solution."""
         form, solver = self._forces
-        rhs, own = np.zeros(len(form.cone_program.rhs)), form.rhs_for(self.weight(velocities), live_power=1.0 - tilt)
+        rhs, own = np.zeros(len(form.cone_program.rhs)), form.rhs_for(self.weight(velocities), live_power=1.0 - penalty)
         rhs[: len(own)] = own
         solver.update(rhs=rhs)
         solution = self._solved(solver, "forces")

@@ -1,9 +1,9 @@
 """The state of the least load factor that fits the law of rigid joints, of those that a search finds.
 
-Without dilatancy a structure may come to rest in many states: that of the path of elastic joints is the one to which
-its loading leads from the stress-free assembly. Others, of lower load factors, belong to other histories. Pairs of
-convex programs (``alternation``) from the normal forces of the path, or of associative flow, come to an exact state
-within some hundred iterations, or to none, and with a tilt to lower ones, as long as their iterations are within
+Without dilatancy a structure has many states of rest: the path of elastic joints leads to the one of its loading from
+the stress-free assembly. Others, of lower load factors, belong to other histories. Pairs of convex programs
+(``alternation``) from the normal forces of the path, or of associative flow, come to an exact state within some hundred
+iterations, or to none, and with a penalty on the load factor to lower ones, as long as their iterations are within
 ``analysis.search`` times those spent so far, or within some hundred.
 
 That is no proof: the least of all is a problem that nobody solves with certainty (Ferris and Tin-Loi 2001,

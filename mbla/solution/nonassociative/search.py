@@ -1,6 +1,6 @@
 """States of the joint law by pairs of programs (``alternation``), and from each of them states of lower load factors.
 
-A descent is a sequence of pairs whose tilt falls.
+A descent is a sequence of pairs whose penalty on the load factor falls.
 """
 
 from __future__ import annotations
@@ -25,13 +25,11 @@ MOST_PAIRS, PATIENCE, PROGRESS = 12, 4, 0.7
 """Pairs of programs from one start at most; given up where so many in a row have not brought the residual to this share
 of what it was."""
 
-TILTS = ((0.1, 2), (0.03, 2), (0.01, 3))
-"""Tilts in turn, and pairs of programs with each."""
+PENALTIES = ((0.1, 2), (0.03, 2), (0.01, 3))
+"""Penalties on the load factor in turn, and pairs of programs with each."""
 
-WIDE, COMES_BACK = ((0.5, 3), *TILTS), 2e-3
-"""In space a search begins with a larger tilt, and anew without it where that violates the law by more than the second:
-a room went from 0.249 to 0.178 at once, where smaller tilts ended at 0.214 after three descents; vaults, at 1e-2 and
-more, did not come back to the law."""
+WIDE, COMES_BACK = ((0.5, 3), *PENALTIES), 2e-3
+"""Penalties in space, the first of them larger; residual beyond which a descent begins anew without that."""
 
 NOTABLE = 1e-4
 """Relative fall of the load factor by a round of the search after which another one is made."""
@@ -161,20 +159,20 @@ class Search:
                 break
         return normal
 
-    def descend(self, normal: FloatArray, tilts: Sequence[tuple[float, int]] = TILTS) -> None:
-        """Pairs with tilts in turn from normal forces, (n_points,), until a state fits the law."""
+    def descend(self, normal: FloatArray, penalties: Sequence[tuple[float, int]] = PENALTIES) -> None:
+        """Pairs with penalties in turn from normal forces, (n_points,), until a state fits the law."""
         first = velocities = self.alternation.motion_for(normal)
-        for tilt, pairs in tilts:
+        for penalty, pairs in penalties:
             factor = np.inf
             for _ in range(pairs):
-                found = None if velocities is None else self.alternation.pair(velocities, tilt)
+                found = None if velocities is None else self.alternation.pair(velocities, penalty)
                 if found is None:
                     break
                 state, velocities = found
                 self.keep(state)
                 normal = state.forces[:, 0]
                 before, factor = factor, state.load_factor
-                if state.residual > COMES_BACK and tilt > TILTS[0][0]:
+                if state.residual > COMES_BACK and penalty > PENALTIES[0][0]:
                     velocities = first
                     break
                 if self.over or (state.residual <= self.wanted and factor > (1.0 - NOTABLE) * before):
@@ -186,14 +184,14 @@ class Search:
         self.limit = self.work + max(self.settings.search * self.work, self.always)
         planar = self.program.components == 2
         if self.answer is not None and planar:  # the lower end of its mechanism first: work may not be left for more
-            self.descend(self.answer.forces[:, 0], TILTS[-1:])
+            self.descend(self.answer.forces[:, 0], PENALTIES[-1:])
         here, falls = self.answer, True
         while here is not None and falls and self.has_work_left:
             before = here.load_factor
-            self.descend(here.forces[:, 0], TILTS if planar else WIDE)
+            self.descend(here.forces[:, 0], PENALTIES if planar else WIDE)
             here = self.answer
             size = max(abs(before), NEAR_ZERO * self.program.dead_over_live)  # next to zero it may have either sign
             falls = here is not None and here.load_factor < before - NOTABLE * size
         for normal in normals:
             if self.has_work_left:
-                self.descend(normal, TILTS if planar else WIDE)
+                self.descend(normal, PENALTIES if planar else WIDE)

@@ -8,7 +8,7 @@ from mbla.assembly.assembly import Assembly
 from mbla.assembly.lift import motions_of_bodies
 from mbla.model.model import LoadCase
 from mbla.solution.further.geometric_safety.geometric_safety import MOST, TOLERANCE, GeometricSafety, shrunk
-from mbla.solution.further.geometric_safety.pressed import pressed_by, unit_of_pressure
+from mbla.solution.further.geometric_safety.reference_pressure import pressed_by, unit_of_pressure
 from mbla.solution.further.sensitivity.structures import Structure
 from mbla.solution.solution import Mechanics
 from mbla.solution.verification.case import Case

@@ -24,7 +24,7 @@ from mbla.results.results import CaseResult
 from mbla.results.sta import StatusFile
 from mbla.run import solve_case
 from mbla.solution.further.geometric_safety.joint_pressure import joint_pressure
-from mbla.solution.further.geometric_safety.pressed import pressed_by
+from mbla.solution.further.geometric_safety.reference_pressure import pressed_by
 from mbla.solution.further.sensitivity.sensitivity import slope_by
 from mbla.solution.further.sensitivity.structures import Structure
 from mbla.solution.settings import solver_settings
@@ -170,7 +170,7 @@ def _stands(deck: Deck, question: Question, structure: Structure, x: float) -> A
     stands = "stands" if least >= 0.0 else "does not stand" if most < 0.0 else "at the limit"
 
     def posed(other: Structure) -> Structure:
-        return pressed_by(other, found.pressed, found.unit)
+        return pressed_by(other, found.reference_pressure, found.unit)
 
     own, unit = slope_by(deck, found.posed, found.solution, found.checks, question.path, posed), found.unit
     value, least, most = unit * value, unit * least, unit * most  # its unit changes with the structure

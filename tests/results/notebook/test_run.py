@@ -68,8 +68,8 @@ def test_travelling_load_has_that_of_its_worst_position() -> None:
     run = Run(travelling([0.7, 0.4, 0.5]))
     assert run.load_factor == 0.4
     assert list(run.load_factors) == ["train_1", "train_2", "train_3"]
-    assert run.pictured is not None
-    assert run.pictured.name == "train_2"
+    assert run.representative_case is not None
+    assert run.representative_case.name == "train_2"
 
 
 def test_run_of_several_cases() -> None:
@@ -92,7 +92,7 @@ def test_run_of_several_cases() -> None:
 def test_run_without_cases() -> None:
     run = Run(replace(tower_results(), cases=()))
     assert not run.verified
-    assert run.pictured is None
+    assert run.representative_case is None
     assert "<table>" in run._repr_html_()
     with pytest.raises(UsageError, match="0 load cases"):
         _ = run.load_factor

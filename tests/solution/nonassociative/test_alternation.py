@@ -1,4 +1,4 @@
-"""Two programs in turn: what each of them solves by a second solver, G that never rises, and tilts that end lower."""
+"""Two programs in turn: each of them by a second solver, G that never rises, and penalties that end lower."""
 
 from __future__ import annotations
 

@@ -87,7 +87,7 @@ def test_a_search_ends_where_nothing_holds_a_block() -> None:
 
 @pytest.mark.long
 def test_in_space_a_search_begins_far_from_the_law() -> None:
-    """Smaller tilts alone end at 0.2833 of g, where more stretchers slide along the through-stones."""
+    """Smaller penalties alone end at 0.2833 of g, where more stretchers slide along the through-stones."""
     least = solution_of(line_of_file(TWO_LEAVES, "analysis.search=1", case=1)).least
     assert least is not None
     assert least.load_factor <= 0.27668

@@ -155,7 +155,7 @@ def _result(ends: tuple[_Try, ...], solves: int) -> GeometricSafety | None:
         return None
     return GeometricSafety(
         sizes=np.array([1.0 / end.x for end in ends]),
-        pressed=np.array([end.found.pressed for end in ends]),
+        pressed=np.array([end.found.reference_pressure for end in ends]),
         load_factors=np.array([state.load_factor for state in known]),
         forces=np.stack([state.contact_forces for state in known]),
         mechanisms=np.stack([state.mechanism for state in known]),

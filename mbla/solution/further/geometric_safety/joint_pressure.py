@@ -17,25 +17,25 @@ import numpy as np
 
 from mbla.deck.sections.analysis import AnalysisSection
 from mbla.solution.cone_solvers.cone_solution import Log
-from mbla.solution.further.geometric_safety.pressed import pressed_by, unit_of_pressure
+from mbla.solution.further.geometric_safety.reference_pressure import pressed_by, unit_of_pressure
 from mbla.solution.further.sensitivity.structures import Structure
 from mbla.solution.sequence.sequence import analysed
 from mbla.solution.settings import solver_settings
 from mbla.solution.solution import WITH_VALUE, Checks, Solution, Status
 
-PRESSED = 100.0
-"""Pressure at which it is searched for first, in units: most structures stand under that"""
-MOST_PRESSED = 1e8
-"""The same, beyond which nothing makes it stand"""
+FIRST_PRESSURE = 100.0
+"""Reference pressure that is tried first, in units: most structures stand under it"""
+MOST_PRESSURE = 1e8
+"""Reference pressure beyond which no pressure makes the structure stand"""
 
 
 @dataclass(frozen=True)
 class JointPressure:
     """What was found; pressures in units of dead load per area of joints.
 
-    posed   : the structure with its joints pressed together, whose live load takes that away
+    posed   : the structure under the reference pressure, whose live load takes it away
     status  : that of its load case, no better than its verification confirms
-    pressed : by how much they are
+    reference_pressure : in all joints
     unit    : of pressure, in the deck's
     solves  : of programs until one stood
     """
@@ -44,7 +44,7 @@ class JointPressure:
     solution: Solution
     checks: Checks
     status: Status
-    pressed: float
+    reference_pressure: float
     unit: float
     solves: int
 
@@ -56,22 +56,24 @@ class JointPressure:
         if self.status is Status.UNBOUNDED:
             return np.inf
         mechanics = self.solution.mechanics
-        return np.nan if mechanics is None or self.status not in WITH_VALUE else mechanics.load_factor - self.pressed
+        if mechanics is None or self.status not in WITH_VALUE:
+            return np.nan
+        return mechanics.load_factor - self.reference_pressure
 
     @property
     def bounds(self) -> tuple[float, float]:
         """What is proved of it."""
-        return self.checks.static_bound - self.pressed, self.checks.kinematic_bound - self.pressed
+        return self.checks.static_bound - self.reference_pressure, self.checks.kinematic_bound - self.reference_pressure
 
 
 def joint_pressure(structure: Structure, analysis: AnalysisSection, log: Log | None = None) -> JointPressure:
     """The greatest pressure for the dead load of a load case, by associative flow."""
     own = analysis.model_copy(update={"flow_rule": "associative", "standing": False, "scheme": "auto"})
     settings, unit = solver_settings(own), unit_of_pressure(structure)
-    pressed, solves = PRESSED, 0
+    reference_pressure, solves = FIRST_PRESSURE, 0
     while True:
-        posed = pressed_by(structure, pressed, unit)
+        posed = pressed_by(structure, reference_pressure, unit)
         found, solves = analysed(posed.assembly, posed.load_case, settings, log), solves + 1
-        if found.status is not Status.NO_EQUILIBRIUM or pressed >= MOST_PRESSED:
-            return JointPressure(posed, found.solution, found.checks, found.status, pressed, unit, solves)
-        pressed *= 10.0
+        if found.status is not Status.NO_EQUILIBRIUM or reference_pressure >= MOST_PRESSURE:
+            return JointPressure(posed, found.solution, found.checks, found.status, reference_pressure, unit, solves)
+        reference_pressure *= 10.0

@@ -17,11 +17,11 @@ def unit_of_pressure(structure: Structure) -> float:
     return float(forces / area) if forces > 0.0 and area > 0.0 else 1.0
 
 
-def pressed_by(structure: Structure, pressed: float, unit: float) -> Structure:
-    """The structure whose joints are pressed together, and whose live load takes that away; ``unit`` of pressure."""
+def pressed_by(structure: Structure, reference_pressure: float, unit: float) -> Structure:
+    """The structure under a reference pressure in all joints, in units, and a live load that takes it away."""
     contacts, case = structure.contacts, structure.load_case
     normal = np.zeros((len(contacts.points), 3))
     normal[:, 0] = unit * contacts.point_areas
     apart = contact_resultants(structure.model, contacts, normal)
-    posed = replace(case, dead_load=case.dead_load - pressed * apart, live_load=apart, tilt=None)
+    posed = replace(case, dead_load=case.dead_load - reference_pressure * apart, live_load=apart, tilt=None)
     return replace(structure, load_case=posed)
