@@ -20,7 +20,7 @@ from mbla.results.failures import StoppedRun
 from mbla.results.hdf5.result_file import read_results_hdf5
 from mbla.results.notebook.run import Run
 from mbla.results.results import Results
-from mbla.results.sta import StatusFile
+from mbla.results.status_file import StatusFile
 from mbla.run import Progress, run_and_write, solve_deck
 
 TEXT_NAME = "deck.yaml"

@@ -22,7 +22,7 @@ from mbla.results.partial import Partial
 from mbla.results.provenance import as_expected, results_before, with_case
 from mbla.results.results import CaseResult, Results
 from mbla.results.series import position_to_push
-from mbla.results.sta import StatusFile
+from mbla.results.status_file import StatusFile
 from mbla.results.write import write_results
 from mbla.solution.cone_solvers.cone_solution import Log
 from mbla.solution.sequence.sequence import answered

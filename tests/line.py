@@ -16,7 +16,7 @@ from mbla.program import Program, assemble
 from mbla.program.reductions import allowed_reductions, reduce_program
 from mbla.results.provenance import with_loads_found
 from mbla.results.results import CaseResult
-from mbla.results.sta import StatusFile
+from mbla.results.status_file import StatusFile
 from mbla.run import solve_case
 from mbla.solution.proof.claim import with_proof
 from mbla.solution.settings import solver_settings

@@ -35,7 +35,7 @@ from mbla.results.outcome import notices_of, result_of
 from mbla.results.record.json_record import results_json
 from mbla.results.record.json_values import json_line
 from mbla.results.results import CaseResult, Results
-from mbla.results.sta import StatusFile
+from mbla.results.status_file import StatusFile
 from mbla.run import solve_deck
 from tests.limited import Hang, limited
 

@@ -17,7 +17,7 @@ import pytest
 import tests.extremes
 from mbla.deck import read_deck
 from mbla.process.run_options import RunOptions
-from mbla.results.sta import StatusFile
+from mbla.results.status_file import StatusFile
 from mbla.run import solve_deck
 from tests.extremes.outcome import Scene, outcome_of
 

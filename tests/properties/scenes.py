@@ -19,7 +19,7 @@ from mbla.deck import Deck, read_deck
 from mbla.model import Model, build_model
 from mbla.results.provenance import with_loads_found
 from mbla.results.results import CaseResult
-from mbla.results.sta import StatusFile
+from mbla.results.status_file import StatusFile
 from mbla.run import solve_case
 from mbla.solution.settings import solver_settings
 from mbla.solution.solution import Status

@@ -13,7 +13,7 @@ import pytest
 from mbla.deck import Deck, read_deck
 from mbla.process.run_options import RunOptions
 from mbla.results.results import CaseResult, Results
-from mbla.results.sta import StatusFile
+from mbla.results.status_file import StatusFile
 from mbla.results.verification.asked import differences_of_positions
 from mbla.run import solve_deck
 from tests.line import HEAD

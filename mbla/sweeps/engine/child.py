@@ -33,7 +33,7 @@ from mbla.process.run_options import RunOptions
 from mbla.results.failures import words_of
 from mbla.results.files import OutputFolder
 from mbla.results.record.json_record import results_json
-from mbla.results.sta import StatusFile
+from mbla.results.status_file import StatusFile
 from mbla.results.write import write_results
 from mbla.run import solve_deck
 from mbla.solution.standing.standing import StressFreeStates

@@ -21,7 +21,7 @@ from mbla.model.model import LoadCase, select_cases
 from mbla.program.build import build_program
 from mbla.results.outcome import least_known, locked_in, result_of
 from mbla.results.results import CaseResult
-from mbla.results.sta import StatusFile
+from mbla.results.status_file import StatusFile
 from mbla.run import solve_case
 from mbla.solution.further.geometric_safety.joint_pressure import joint_pressure
 from mbla.solution.further.geometric_safety.reference_pressure import pressed_by

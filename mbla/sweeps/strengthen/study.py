@@ -32,7 +32,7 @@ from mbla.results.movable_deck import MovableDeck, movable_deck, sections_text
 from mbla.results.outcome import least_known, result_of
 from mbla.results.provenance import deck_record
 from mbla.results.results import Results
-from mbla.results.sta import StatusFile
+from mbla.results.status_file import StatusFile
 from mbla.results.write import write_results
 from mbla.run import run, solve_deck
 from mbla.solution.cone_solvers.cone_solution import Log

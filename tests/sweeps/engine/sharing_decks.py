@@ -15,7 +15,7 @@ import scipy.sparse as sp
 from mbla.deck import read_deck
 from mbla.process.run_options import RunOptions
 from mbla.results.results import Results
-from mbla.results.sta import StatusFile
+from mbla.results.status_file import StatusFile
 from mbla.run import solve_deck
 from mbla.solution.standing.standing import StressFreeStates
 from mbla.sweeps.plan import Plain, override_texts

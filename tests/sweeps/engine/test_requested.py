@@ -12,7 +12,7 @@ from mbla.process.run_options import RunOptions
 from mbla.results.record.json_record import results_json
 from mbla.results.record.json_values import json_line
 from mbla.results.record.keys import RUN_RECORD
-from mbla.results.sta import StatusFile
+from mbla.results.status_file import StatusFile
 from mbla.run import solve_deck
 from mbla.sweeps.engine.child import ON_REQUEST, PointRunner, requested_only
 from mbla.sweeps.plan import Plan, Task, override_texts

@@ -4,7 +4,7 @@ from pathlib import Path
 import pytest
 
 from mbla.errors import FileError
-from mbla.results.sta import HEADER, StatusFile, status_line
+from mbla.results.status_file import HEADER, StatusFile, status_line
 from mbla.solution.solution import IterationRecord
 
 RECORD = IterationRecord(3, 17, 0.14534567, 1.25e-7, 2e-9, 3e-10, 0.99, 1.2345)
