@@ -20,7 +20,7 @@ Variant: TypeAlias = tuple[bytes | float, ...]
 class Assembly:
     """A model with its contacts; what the solver sees of them is worked out when it is first asked for, and kept.
 
-    Load cases differ by the supports that give way and by the load cell of their objective. Whatever else changes of
+    Load cases differ by the settling supports and by the load cell of their objective. Whatever else changes of
     model or contacts makes another assembly (``dataclasses.replace``).
 
     model    : with the blocks fixed that glue holds to a support

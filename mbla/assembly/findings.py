@@ -75,7 +75,7 @@ def _loose_ties(assembly: Assembly, rows: IntArray, path: KeyPath) -> Iterator[t
 
 
 def settlement_findings(assembly: Assembly) -> Iterator[tuple[KeyPath, Message]]:
-    """Supports that give way and hold nothing: no joint and no tie lies between them and a block that can move."""
+    """Settling supports that hold nothing: no joint and no tie lies between them and a block that can move."""
     model, contacts = assembly.model, assembly.contacts
     still = np.append(model.fixed, np.ones(len(model.grounds) + 1, dtype=bool))
     ties, glued = model.ties, contacts.report.glued
@@ -107,7 +107,7 @@ def _held_otherwise(assembly: Assembly) -> Iterator[tuple[KeyPath, Message]]:
 
 
 def _glued_settlements(assembly: Assembly) -> Iterator[tuple[KeyPath, Message]]:
-    """A support that gives way does not take along what is glued to it."""
+    """A settling support does not take along what is glued to it."""
     model, bodies = assembly.model, assembly.contacts.report.glued
     for case in model.load_cases:
         blocks = case.question.giving_way

@@ -79,7 +79,7 @@ def _without(bodies: IntArray, taken: IntArray, n_bodies: int) -> IntArray:
 
 
 def both_fixed(model: Model, bodies: IntArray) -> BoolArray:
-    """True where neither body of a pair can move but as a support that gives way, (n,).
+    """True where neither body of a pair can move but as a settling support, (n,).
 
     Supports do not rub on each other: a footing that sinks next to another would lock against it by dilatancy alone.
     """

@@ -95,7 +95,7 @@ def _load_cases(
     name: str, section: LoadCaseSection, site: LoadSite, supports: Supports, ties: Ties
 ) -> Sequence[LoadCase]:
     """Loads of one case, or of one for each position of a load that travels, or for each end of a force that is sought;
-    or a support that gives way.
+    or a settling support.
     """
     load_cases = build_load_cases(name, section, site)
     path: KeyPath = ("load_cases", name)

@@ -96,7 +96,7 @@ class LoadCase:
 
     dead_load, live_load : (n_blocks, 6) force N and moment N m, also on fixed blocks (they go into the support)
     dead_words, live_words : the loads in words, for the listing
-    settlement : support that gives way, None for none
+    settlement : settling support, None for none
     objective  : force whose least or greatest value is sought, by the settlement of what it acts through; None for none
     travel, tilt : where it is a position of a travelling load, or a tilting table
     pushover : what follows limit analysis, None for nothing; of positions of a travelling load all that may be pushed

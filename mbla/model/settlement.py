@@ -1,6 +1,6 @@
 """Settlement of a support, as a load case: which blocks give way, how, and the loads that hold and take their reaction.
 
-Limit analysis of settlements: as a support gives way its reaction falls to the least value that equilibrium allows, and
+Limit analysis of settlements: as a support settles its reaction falls to the least value that equilibrium allows, and
 the structure moves in the mechanism that belongs to it (Heyman 1966, doi:10.1016/0020-7683(66)90018-7; Portioli and
 Cascini 2017, Engineering Structures 148, 485-496). With the velocities of the settling blocks w_b = q m_b for one
 unknown q, the reaction R of the support against the motion balances what the structure does to them::
@@ -10,7 +10,7 @@ unknown q, the reaction R of the support against the motion balances what the st
 Posed with a load factor: R = R0 − λ U with R0 a reaction with which the structure is at rest, and U the weight of what
 can move. The greatest λ gives the least R. Loads on the settling blocks themselves are not part of R.
 
-Several supports that give way together by amounts a_i along unit directions d_i are one motion, m_b = d_i a_i / max a:
+Several supports that settle together by amounts a_i along unit directions d_i are one motion, m_b = d_i a_i / max a:
 q is the displacement of the one that goes farthest, and R = Σ_i R_i a_i / max a is conjugate to it, R_i the reaction of
 each against its direction.
 """

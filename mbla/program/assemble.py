@@ -29,7 +29,7 @@ from mbla.program.yield_conditions.limits import YieldLimits
 def assemble(model: Model, contacts: Contacts, load_case: LoadCase, *, own: bool = True) -> Program:
     """Build the program of one load case; nothing in it depends on the deck's units.
 
-    own : light blocks may have units of their own (:mod:`mbla.program.assemble`); none have where a support gives way,
+    own : light blocks may have units of their own (:mod:`mbla.program.assemble`); none have where a support settles,
           whose load is a reaction that may be negligible
 
     With guided blocks it is a reduction of the program in which these are free.

@@ -16,7 +16,7 @@ class ModelFacts:
     free     : (n_free,) the block to which each six rows of the spatial program belong
     n_blocks : blocks of the model
     areas    : (n_points,) by which contact points share stiffness (:mod:`mbla.program.stiffness_shares`)
-    settling_support : a support gives way: the reference of the load factor is chosen, and 0 does not show that the
+    settling_support : a support settles: the reference of the load factor is chosen, and 0 does not show that the
                structure stands
     allowed  : (n_rows, n_rows) projector on the motions that guides allow, None where no block is guided
     brittle  : (n_points, 2) whether a point carries nothing once it has given way at its greatest force, and at its

@@ -2,7 +2,7 @@
 
 The deck of a result, with one of its load cases, in which the blocks of each part of the mechanism are glued to one
 rigid body, and those at rest to each other and to the ground. Parts are groups, ``part_1`` and so on by their numbers
-in the result, and ``at_rest``; blocks that the deck guides, and a support that gives way, stay bodies of their own.
+in the result, and ``at_rest``; blocks that the deck guides, and a settling support, stay bodies of their own.
 
 With associative flow the load factor is the same: the mechanism is still possible, so that the kinematic bound holds,
 and forces inside of a rigid body have to satisfy nothing, so that the static bound can only rise. A mechanism without

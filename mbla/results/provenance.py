@@ -222,7 +222,7 @@ def with_case(results: Results, case: CaseResult, seconds: float, stopwatch: Sto
 def with_loads_found(assembly: Assembly, cases: Sequence[CaseResult]) -> Assembly:
     """The assembly with the load cases as they were solved.
 
-    The loads of a tilting table are those of its angle, and those of a support that gives way have the reaction from
+    The loads of a tilting table are those of its angle, and those of a settling support have the reaction from
     which it starts.
     """
     found = {case.load_case.name: case.load_case for case in cases}

@@ -5,7 +5,7 @@ what is found in addition to its load factor, by one record of ``settings``. ``a
 sides, conditions on interfaces included; ``law`` has the step of elastic joints, ``flow`` their path, ``standing`` the
 state of the stress-free assembly; ``nonassociative`` has one file a scheme.
 
-``sequence`` answers load cases that take several analyses: tilting tables, supports that give way, the range of a
+``sequence`` answers load cases that take several analyses: tilting tables, settling supports, the range of a
 force. ``further`` and ``pushover`` find what is asked besides the load factor, and change nothing of it.
 
 ``verification`` recomputes everything from model, contacts and solution, without a solver. ``cone_solvers`` is the door

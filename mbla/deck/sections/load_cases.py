@@ -1,4 +1,4 @@
-"""Section `load_cases`: loads that stay, loads that the load factor multiplies, and supports that give way."""
+"""Section `load_cases`: loads that stay, loads that the load factor multiplies, and settling supports."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ Settlements: TypeAlias = Annotated[
     | Annotated[Annotated[list[SettlementSection], Field(min_length=1, max_length=1000)], Tag("list")],
     Discriminator(lambda value: "list" if shape(value) == "list" else "mapping"),
 ]
-"""One support that gives way, or several in proportion."""
+"""One settling support, or several in proportion."""
 
 
 class ControlSection(Section):

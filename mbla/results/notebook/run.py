@@ -130,7 +130,7 @@ class Run:
     def representative_case(self) -> Case | None:
         """The load case whose picture stands for the run: that with the least load factor, or else the first.
 
-        Load factors of supports that give way and of tilting tables are of another kind and do not count.
+        Load factors of settling supports and of tilting tables are of another kind and do not count.
         """
         plain = [case for case in self.cases if case.record.load_case.question.group == "load_factor"]
         known = [case for case in plain if not math.isnan(case.load_factor)]

@@ -105,7 +105,7 @@ def solve_associative(
     if carried:
         return _with_dead_load(run, answer, proved=True)
     if not stress_free or settings.deadline is not None:
-        # where a support gives way, forces at any load factor carry the dead load, with another reaction
+        # where a support settles, forces at any load factor carry the dead load, with another reaction
         shown = program.facts.settling_support and answer.gap is not None and np.isfinite(answer.gap.static)
         return _with_dead_load(run, answer, proved=bool(shown))
     state = stress_free_state(program, states)

@@ -10,7 +10,7 @@ The products of the law fall tenfold after every step that goes most of its way,
 law are reached together: with larger ones joints push each other apart, and a history is remembered that nothing has
 caused.
 
-A support that gives way later is held, f_L·u = 0, and λ is its reaction: from R0 of the program, in units of f_L.
+A support that settles later is held, f_L·u = 0, and λ is its reaction: from R0 of the program, in units of f_L.
 """
 
 from __future__ import annotations

@@ -4,7 +4,7 @@ The path is measured by the load factor of associative flow, ``scale``. Two kind
 
 * Associative flow locks. The part's own unit of load stands for it, then the load factor that was found, until both are
   of one size. Where nothing gives way λ is proportional to the displacement; twice so, it is unbounded.
-* A support gives way. The gravity step holds it, and its λ there, from which the reaction at rest follows, is where the
+* A support settles. The gravity step holds it, and its λ there, from which the reaction at rest follows, is where the
   path begins: the dead load has that reaction then, and λ of the path counts from it. The greatest is the least
   reaction, and the path does not end because λ falls.
 """

@@ -33,7 +33,7 @@ def looks_lower(program: Program, settings: SolverSettings, interfaces: Interfac
 
     In space contact points let a joint carry all its force at the one point about which it twists, where friction does
     no work: of a block that is twisted alone the least load factor is nothing. That belongs to the points, not to the
-    structure, and is not looked for unasked. The reaction of a support that gives way is that of its path, and the
+    structure, and is not looked for unasked. The reaction of a settling support is that of its path, and the
     programs of the search know points alone.
 
     interfaces : that have a law of their own

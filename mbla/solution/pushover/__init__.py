@@ -1,1 +1,1 @@
-"""The load factor as a structure moves, and the reaction of a support that gives way, over finite displacements."""
+"""The load factor as a structure moves, and the reaction of a settling support, over finite displacements."""

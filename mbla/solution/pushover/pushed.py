@@ -30,7 +30,7 @@ class CurveRow:
     step         : from 0, the structure as it starts to move
     displacement : of the control point, m
     load_factor  : that holds the structure there; of a tilting table its angle, rad
-    reaction     : of a support that gives way, N; nan without one
+    reaction     : of a settling support, N; nan without one
     angle        : of a tilting table, degrees; nan without one
     error        : estimated error of the load factor, from steps of twice the size; nan where that is not known
     residual     : of the law of elastic joints and of balance, the greater; nan of row 0

@@ -1,7 +1,7 @@
 """A load case of the deck by as many analyses as it takes: one, or several, each of which leads to the next.
 
 What is asked says which: a tilting table goes from angle to angle, the least or greatest value of a force from one
-reference to another, a support that gives way needs the reaction of the structure at rest. Each is a generator in a
+reference to another, a settling support needs the reaction of the structure at rest. Each is a generator in a
 file of its own, which yields load cases and gets them back solved and verified.
 """
 

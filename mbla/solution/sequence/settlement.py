@@ -1,4 +1,4 @@
-"""A support that gives way: the reaction of the structure at rest, from which its load factor counts, and one analysis.
+"""A settling support: the reaction of the structure at rest, from which its load factor counts, and one analysis.
 
 A settlement starts from the reaction of a structure at rest on a support that has not given way yet. Any reaction R0
 with which the structure is in equilibrium would do for bounds, since the answer R = R0 − λ U does not depend on it
@@ -49,12 +49,12 @@ def _silent(_: IterationRecord) -> None:
 
 
 def settled(assembly: Assembly, load_case: LoadCase, settings: SolverSettings) -> AnalysisSequence:
-    """One analysis; where a support gives way with the reaction that it starts from."""
+    """One analysis; where a support settles with the reaction that it starts from."""
     return (yield posed(assembly, load_case, settings))
 
 
 def posed(assembly: Assembly, load_case: LoadCase, settings: SolverSettings) -> LoadCase:
-    """A load case with its settlement posed; the same one where no support gives way.
+    """A load case with its settlement posed; the same one where no support settles.
 
     Where no forces were found that carry the dead load while the support is held the reaction starts high: a lack of
     equilibrium in the programs that follow is then not due to the reaction.

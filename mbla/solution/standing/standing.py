@@ -87,7 +87,7 @@ class StressFreeStates:
 def stress_free_state(program: Program, states: StressFreeStates | None = None) -> StressFree:
     """State of the stress-free assembly under its dead load: the same whatever the live load and the flow rule.
 
-    A support that gives way later is held.
+    A support that settles later is held.
 
     states : those known, to which it is added
     """
@@ -97,7 +97,7 @@ def stress_free_state(program: Program, states: StressFreeStates | None = None) 
 
 
 def _stress_free(program: Program) -> StressFree:
-    """``stress_free_state`` of a program that has no live load, unless a support gives way."""
+    """``stress_free_state`` of a program that has no live load, unless a support settles."""
     if not np.any(program.dead_load) or program.n_points == 0:  # nothing to carry, or guides alone to carry it
         none = np.zeros((program.n_points, program.components))
         still = np.zeros_like(program.dead_load)

@@ -33,7 +33,7 @@ OFF_GUIDE = 1e-9
 
 @dataclass(frozen=True)
 class Structure:
-    """An assembly under one load case, in which no support gives way."""
+    """An assembly under one load case, in which no support settles."""
 
     assembly: Assembly
     load_case: LoadCase
