@@ -100,7 +100,7 @@ def displacements(steps: int = STEPS) -> Any:
 
 def _frames(widest: Sequence[Scene], scenes: Iterable[Scene], options: PictureOptions) -> Iterator[Any]:
     """Images (height, width, 3) of 0 to 255 of scenes, none of which goes beyond the widest."""
-    drawing = drawing_of(widest[0], "mechanism")
+    drawing = drawing_of(widest[0], "mechanism", options.view)
     extent = extent_of(widest, drawing)
     for scene in scenes:
         with open_frames(options) as page:

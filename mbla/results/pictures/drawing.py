@@ -32,7 +32,7 @@ from mbla.results.pictures.page import (
     group_colours,
     open_page,
 )
-from mbla.results.pictures.plane import draw_flat, flat_of
+from mbla.results.pictures.plane import Flat, draw_flat, flat_of
 from mbla.results.pictures.renderer import image_of
 from mbla.results.pictures.scene import Scene, named_groups, part_colours
 from mbla.results.pictures.ties import tie_marks
@@ -51,17 +51,20 @@ SHARPNESS = {"png": 1, "svg": 2, "pdf": 2}
 class Drawing:
     """A structure with its marks, before it moves.
 
+    flat    : the plane that it lies in; None in space
     colours : (n_blocks) of the blocks
     legend  : names and colours of what is no mark
     """
 
+    flat: Flat | None
     colours: list[str]
     legend: list[tuple[str, str]]
     marks: list[Mark]
 
 
-def drawing_of(scene: Scene, kind: str) -> Drawing:
-    """Model, mechanism or forces of a case."""
+def drawing_of(scene: Scene, kind: str, view: tuple[float, float] | None = None) -> Drawing:
+    """Model, mechanism or forces of a case, in the plane where that can show it and the view is none of space."""
+    flat = flat_of(scene, view, kind)
     model, blocks = scene.results.model, scene.model.blocks
     loads = shown_loads(scene, kind)
     held = np.where(model.fixed, FIXED_BLOCK, "").astype(object)
@@ -76,10 +79,10 @@ def drawing_of(scene: Scene, kind: str) -> Drawing:
         named, more = named_groups({group: colour for group, colour in tint.items() if group in free})
         own, legend, marks = [tint[group] for group in blocks.groups], named + [(more, "white")] * bool(more), []
     else:
-        own, marks = part_colours(scene, GROUPS), joint_marks(scene)
+        own, marks = part_colours(scene, GROUPS), joint_marks(scene, flat=flat is not None)
         legend = _parts(scene)
     colours = [support or colour for support, colour in zip(held, own, strict=True)]
-    return Drawing(colours, legend + supports, marks + tie_marks(scene, at_work=kind != "model") + loads)
+    return Drawing(flat, colours, legend + supports, marks + tie_marks(scene, at_work=kind != "model") + loads)
 
 
 def _parts(scene: Scene) -> list[tuple[str, str]]:
@@ -106,7 +109,7 @@ def draw_picture(path: Path, scene: Scene, kind: str, options: PictureOptions) -
         The file cannot be written.
     """
     with open_page(path, options) as page:
-        drawing = drawing_of(scene, kind)
+        drawing = drawing_of(scene, kind, options.view)
         draw_on(page, scene, drawing, kind, extent_of([scene], drawing), SHARPNESS[format_of(path)])
 
 
@@ -126,7 +129,7 @@ def draw_on(page: Page, scene: Scene, drawing: Drawing, kind: str, extent: Float
     used = add_words(page, scene.words_of(kind), scene.mark_of(kind))
     bottom = add_legend(page, _handles(page, drawing), bottom=0.012, corner=True)
     room: Room = ((MARGIN, 1 - MARGIN), (max(bottom, AXES) + 0.01, max(1 - used - 0.01, bottom + 0.2)))
-    flat = flat_of(scene, options.view, kind)
+    flat = drawing.flat
     view = (flat.azimuth, 0.0) if flat else options.view or view_of_case(scene)
     camera = fitted(extent, view, width / height, room)
     axes = page.figure.add_axes((0.0, 0.0, 1.0, 1.0), zorder=-1)

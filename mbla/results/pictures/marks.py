@@ -19,11 +19,13 @@ from mbla.results.collapse.interface_modes import InterfaceMode, InterfaceMotion
 from mbla.results.collapse.motion import moved_points
 from mbla.results.collapse.thrust import OUTSIDE
 from mbla.results.listing.text import number
-from mbla.results.pictures.page import CRUSH, HINGE, OPEN, ORANGE, OTHER_END, PURPLE, RESULTANT, SLIDE, THRUST
+from mbla.results.pictures.page import CRUSH, HINGE, INK, OPEN, ORANGE, OTHER_END, PURPLE, RESULTANT, SLIDE, THRUST
 from mbla.results.pictures.scene import Scene
 
 THIN, DOT = 0.3, 0.6
 """thickness of hinges that the listing does not name and of outlines, and of dots, over that of other hinges"""
+SAME_PLACE = 1e-6
+"""of the size of the structure, up to which two corners are one"""
 LEAST_SHARE, MOST_PLANES = 0.1, 20
 """share of the largest slip from which a sliding plane has an arrow, and how many have one"""
 LEAST_SLIP = 0.02
@@ -55,6 +57,7 @@ class Mark:
     texts  : (n) what the browser shows for each point
     faces  : (m, 4) rows of points, areas between bodies that part
     inside : it lies within the blocks and is seen only through them
+    covered : blocks in front of it hide it, where other marks shine through
     """
 
     name: str
@@ -67,6 +70,7 @@ class Mark:
     faces: IntArray = field(default_factory=lambda: np.zeros((0, 4), dtype=np.int64))
     arrows: bool = False
     inside: bool = False
+    covered: bool = False
 
 
 def moved(mark: Mark, model: Model, motion: FloatArray) -> FloatArray:
@@ -143,15 +147,26 @@ def interface_names(model: Model, contacts: Contacts) -> list[str]:
 # --- Joints that move -----------------------------------------------------------------------------------------------
 
 
-def joint_marks(scene: Scene) -> list[Mark]:
-    """What opens, slides, crushes and turns in the motion as drawn; nothing of a structure at rest."""
+def joint_marks(scene: Scene, *, flat: bool = True) -> list[Mark]:
+    """What opens, slides, crushes and turns in the motion as drawn; nothing of a structure at rest.
+
+    flat : in a plane every joint that moves; else, where they would be drawn one behind another, the cracks between the
+           parts of the listing, with their hinge lines and sliding planes
+    """
     joints, contacts = scene.joint_motion, scene.contacts
     if joints is None or not len(contacts) or not scene.motion.any():
         return []
     names = interface_names(scene.model, contacts)
     slides = np.isin(joints.modes, (InterfaceMode.SLIDE, InterfaceMode.TWIST))
+    opens = np.isin(joints.modes, (InterfaceMode.OPEN, InterfaceMode.HINGE))
+    if not flat:
+        slips = _slips(scene, joints, np.flatnonzero(slides & scene.apart), names)
+        crushing = _outlines("crushing", CRUSH, contacts, joints.crushes & scene.apart, names)
+        opening = replace(_opening(contacts, opens & scene.apart, names), covered=True)
+        found = [opening, cracks(scene, names), *slips, crushing, _hinges(scene, joints, names, scene.apart)]
+        return [mark for mark in found if len(mark.pairs)]
     found = [
-        _opening(contacts, np.isin(joints.modes, (InterfaceMode.OPEN, InterfaceMode.HINGE)), names),
+        _opening(contacts, opens, names),
         _outlines("sliding", SLIDE, contacts, slides, names),
         *_slips(scene, joints, np.flatnonzero(slides), names),
         _outlines("crushing", CRUSH, contacts, joints.crushes, names),
@@ -167,6 +182,30 @@ def interface_sides(contacts: Contacts, chosen: BoolArray) -> IntArray:
     following = np.where(rows - first + 1 < corners, rows + 1, first)
     on_outline = chosen[contacts.interface_of_point] & (rows - first < corners)
     return np.column_stack([rows, following])[on_outline]
+
+
+def cracks(scene: Scene, names: Sequence[str]) -> Mark:
+    """Outlines of the surfaces in which parts of the listing come apart, as part of the blocks of both sides.
+
+    A side that two interfaces of one surface share lies within it.
+    """
+    contacts, fine = scene.contacts, SAME_PLACE * scene.size
+    sides = interface_sides(contacts, scene.apart)
+    of_body = np.append(scene.clusters, np.zeros(len(scene.model.grounds), dtype=np.int64))
+    owners = contacts.interface_of_point[sides[:, 0]]
+    parts = np.sort(of_body[contacts.bodies[owners]], axis=1)
+    ends = np.rint(contacts.points[sides] / fine).reshape(-1, 6)
+    turned = ends[:, [3, 4, 5, 0, 1, 2]]
+    first = np.array([tuple(one) <= tuple(other) for one, other in zip(ends.tolist(), turned.tolist(), strict=True)])
+    keys = np.hstack([parts, np.where(first[:, None], ends, turned)]) if len(sides) else np.zeros((0, 8))
+    _, row, times = np.unique(keys, axis=0, return_inverse=True, return_counts=True)
+    outer = times[row.ravel()] == 1
+    sides, owners = np.tile(sides[outer], (2, 1)), np.tile(owners[outer], 2)
+    bodies = contacts.bodies[owners[: len(owners) // 2]].T.ravel()
+    texts = [f"crack: {names[owner]}" for owner in owners.tolist()]
+    both = np.column_stack([bodies, bodies])
+    mark = segments("crack", INK, contacts.points[sides], both, texts, np.full(len(sides), THIN))
+    return replace(mark, covered=True)
 
 
 def _outlines(name: str, colour: str, contacts: Contacts, chosen: BoolArray, names: list[str]) -> Mark:
@@ -196,9 +235,9 @@ def _opening(contacts: Contacts, chosen: BoolArray, names: list[str]) -> Mark:
     )
 
 
-def _hinges(scene: Scene, joints: InterfaceMotion, names: list[str]) -> Mark:
-    """Axes of the interfaces that open about one; those on hinge lines of the listing are thick."""
-    rows = np.flatnonzero(joints.modes == InterfaceMode.HINGE)
+def _hinges(scene: Scene, joints: InterfaceMotion, names: list[str], chosen: BoolArray | None = None) -> Mark:
+    """Axes of the interfaces, or of chosen ones, that open about one; those on hinge lines of the listing are thick."""
+    rows = np.flatnonzero((joints.modes == InterfaceMode.HINGE) & (True if chosen is None else chosen))
     widths = np.ones(len(rows))
     if scene.failure is not None:
         listed = [row for line in scene.failure.hinge_lines for row in line.interfaces.tolist()]

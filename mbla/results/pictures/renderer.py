@@ -100,10 +100,10 @@ def image_of(
         width, height = pixels
         finer = FINER if width * height < FINE else 1
         solid = _structure(vista, plotter, scene, colours, slabs, ghost, finer * height / 1000)
-        shown = [actor for mark, points in marks for actor in _actors(vista, plotter, mark, points, THICK * scene.size)]
+        drawn = [(mark, _actors(vista, plotter, mark, points, THICK * scene.size)) for mark, points in marks]
         image = _render(plotter, camera, finer * width, finer * height)
-        if shown:
-            for actor in solid:
+        if not all(mark.covered for mark, _ in drawn):
+            for actor in [*solid, *(actor for mark, actors in drawn if mark.covered for actor in actors)]:
                 actor.SetVisibility(False)
             alone = _render(plotter, camera, finer * width, finer * height)
             covered = (alone < 255).any(axis=2)

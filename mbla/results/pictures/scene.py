@@ -9,8 +9,9 @@ from functools import cached_property
 import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
-from mbla.results.collapse.collapse import Collapse, Failure, failure_of, fall_of
+from mbla.results.collapse.collapse import NOTABLE, Collapse, Failure, failure_of, fall_of
 from mbla.results.collapse.interface_modes import InterfaceMotion
+from mbla.results.collapse.joint_planes import cluster_joints
 from mbla.results.collapse.motion import drawn_motion, moved_vertices
 from mbla.results.collapse.thrust import points_to_draw
 from mbla.results.force_range import other_end
@@ -80,6 +81,14 @@ class Scene(RecordScene):
     def failure(self) -> Failure | None:
         """Clusters, hinge lines, sliding planes and cracks of what is drawn, numbered as in the listing."""
         return None if self._moving is None else failure_of(self.model, self.contacts, *self._moving)
+
+    @cached_property
+    def apart(self) -> BoolArray:
+        """Interfaces at which parts of the listing move against each other notably, (n_interfaces,)."""
+        if self._moving is None:
+            return np.zeros(len(self.contacts), dtype=bool)
+        joints = cluster_joints(self.model, self.contacts, self.clusters, self._moving[1])
+        return np.asarray(joints.between & (joints.shares >= NOTABLE))
 
     @property
     def clusters(self) -> IntArray:

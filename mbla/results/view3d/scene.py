@@ -52,7 +52,7 @@ def scene_of(results: Results, case: CaseResult, view: tuple[float, float] | Non
     offset = offset_of(blocks.vertices, scene.size)
     loads = live_marks(scene, case.load_case, "live load", LIVE_LOAD)
     ties = tie_marks(scene)
-    marks = [*joint_marks(scene), *force_marks(scene, proportional=True), *ties, *loads]
+    marks = [*joint_marks(scene, flat=False), *force_marks(scene, proportional=True), *ties, *loads]
     reach = [points for mark in (*ties, *loads) for points in (mark.points, moved(mark, model, scene.motion))]
     seen = np.vstack([scene.moved, blocks.vertices, *(slab.points for slab in scene.slabs), *reach])
     margin = MARGIN * float(np.ptp(seen, axis=0).max())

@@ -60,3 +60,26 @@ def column_of_blocks(*right: float) -> Results:
     solution = replace(results.cases[0].solution, mechanics=mechanics)
     case = replace(results.cases[0], load_case=load_case, solution=solution)
     return replace(results, assembly=Assembly(model, contacts), cases=(case,))
+
+
+def two_on_one() -> Results:
+    """Two cubes side by side on a fixed block, which turn as one about its upper edge at x = 2."""
+    results = tower_results()
+    blocks = cuboids([[0, 0, 0], [0, 0, 1], [1, 0, 1]], [[2, 1, 1], [1, 1, 2], [2, 1, 2]], ["base", "left", "right"])
+    contacts = horizontal_contacts([[0, 1], [0, 2]], [(0, 1, 0, 1, 1), (1, 2, 0, 1, 1)])
+    opening = 2.0 - contacts.points[:, 0]
+    mechanism = np.zeros((3, 6))
+    mechanism[1:, :3] = np.cross([0.0, 1.0, 0.0], blocks.centroids[1:] - [2.0, 0.5, 1.0])
+    mechanism[1:, 4] = 1.0
+    mechanics = replace(
+        tower_mechanics(),
+        contact_forces=np.tile([1.0, 0, 0], (8, 1)),
+        contact_velocities=opening[:, None] * [1.0, 0.0, 0.0],
+        mechanism=mechanism,
+        modes=np.where(opening > 0, 2, 0),
+    )
+    load_case = replace(results.model.load_cases[0], dead_load=np.zeros((3, 6)), live_load=np.ones((3, 6)))
+    model = replace(results.model, blocks=blocks, fixed=np.arange(3) == 0, grounds=(), load_cases=(load_case,))
+    solution = replace(results.cases[0].solution, mechanics=mechanics)
+    case = replace(results.cases[0], load_case=load_case, solution=solution)
+    return replace(results, assembly=Assembly(model, contacts), cases=(case,))

@@ -14,7 +14,7 @@ from mbla.results.pictures.options import PictureOptions
 from mbla.results.pictures.scene import Scene, scene_of
 from mbla.results.results import Results
 from mbla.solution.solution import ContactMode
-from tests.results.pictures.rows_and_columns import column_of_blocks, row_of_blocks
+from tests.results.pictures.rows_and_columns import column_of_blocks, row_of_blocks, two_on_one
 from tests.results.synthetic import tower_results
 
 FRICTION = 0.65
@@ -59,6 +59,31 @@ def test_hinges_that_the_listing_does_not_tell_are_thin() -> None:
     assert named(joint_marks(shown))["hinge"].widths.tolist() == [1.0]
     shown.__dict__["failure"] = replace(shown.failure, hinge_lines=())
     assert named(joint_marks(shown))["hinge"].widths.tolist() == [module.THIN]
+
+
+def test_in_space_the_crack_between_parts_is_drawn_once_around() -> None:
+    """Two blocks side by side turn as one: the side between their joints lies within the crack."""
+    shown = scene(two_on_one())
+    assert shown.failure is not None
+    shown.__dict__["failure"] = replace(shown.failure, clusters=np.array([0, 1, 1]))  # as if they touched
+    found = named(joint_marks(shown, flat=False))
+    assert list(found) == ["opening", "crack", "hinge"]
+    crack = found["crack"]
+    assert crack.covered
+    assert found["opening"].covered
+    assert not found["hinge"].covered
+    assert len(crack.pairs) == 2 * 6
+    middles = crack.points[crack.pairs].mean(axis=1)
+    assert not (np.abs(middles[:, 0] - 1.0) < 1e-9).any()
+    below, above = crack.bodies[crack.pairs[:, 0], 0], crack.bodies[crack.pairs[:, 0], 1]
+    assert below.tolist() == above.tolist()
+    assert sorted(set(below.tolist())) == [0, 1, 2]
+
+
+def test_in_space_joints_within_a_part_are_not_drawn() -> None:
+    shown = scene()
+    shown.__dict__["apart"] = np.zeros(len(shown.contacts), dtype=bool)
+    assert joint_marks(shown, flat=False) == []
 
 
 def sliding(*motion: float, mode: int = 1) -> Scene:

@@ -74,7 +74,7 @@ def test_blocks_of_the_tower() -> None:
 def test_marks_of_the_tower() -> None:
     """What they are and where :mod:`tests.results.pictures.test_marks` shows."""
     found = marks(scene(tower_results()))
-    assert list(found) == ["opening", "hinge", "resultant", "at the edge of the joint", "live load"]
+    assert list(found) == ["opening", "crack", "hinge", "resultant", "at the edge of the joint", "live load"]
     assert found["hinge"]["colour"] == HINGE
     assert read(found["hinge"]["points"], 3)[:, [0, 2]].tolist() == [[1, 1], [1, 1]]
     assert found["hinge"]["texts"] == ["hinge: base[0] | tower[0]"]
@@ -87,7 +87,7 @@ def test_marks_of_the_tower() -> None:
 def test_case_without_equilibrium_shows_what_falls() -> None:
     found = scene(tower_results(), 1)
     assert found["motionWords"] == "motion in which the dead load falls"
-    assert list(marks(found)) == ["live load"]
+    assert list(marks(found)) == ["crack", "live load"]
     assert found["forceWords"] == ""
     assert [each["name"] for each in found["colourings"]] == ["part", "displacement", "group"]
 

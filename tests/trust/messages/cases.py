@@ -241,6 +241,16 @@ def load_without_a_horizontal_part(folder: Path, patch: Patch) -> object:
     return command("interact", str(write(folder, changed("[1, 0, 0]", "[0, 0, 1]"))))
 
 
+@brings("no-assessment")
+def result_that_no_code_is_asked_of(folder: Path, patch: Patch) -> object:
+    return api.assess(api.run(BLOCK))
+
+
+@brings("changes-the-analysis")
+def assessment_of_another_structure(folder: Path, patch: Patch) -> object:
+    return api.assess(api.run(BLOCK), set={"joints.dry.friction": 0.3})
+
+
 COMMANDS = {
     "folder_for_a_deck": ("folder-given", "run {folder}"),
     "deck_for_a_folder_that_is_not_there": ("file-missing", "new {folder}/none/deck"),
