@@ -21,6 +21,10 @@ LARGEST_ROTATION = 0.5
 """radians; without this limit a small block that spins in a large model would turn several times"""
 
 
+SAME_POSE = 1e-7
+"""difference of rotations, and of displacements over the size of the model, of blocks that keep together"""
+
+
 def drawn_motion(model: Model, case: CaseResult | None) -> FloatArray:
     """Displacement and rotation of each block as drawn, (n_blocks, 6) m and rad.
 
@@ -103,6 +107,27 @@ def moved_points(blocks: Blocks, motion: FloatArray, owners: IntArray, points: F
     rotation, travel = screws(motion)
     turned = np.einsum("vij,vj->vi", rotation[owners], points - blocks.centroids[owners])
     return np.asarray((blocks.centroids + travel)[owners] + turned)
+
+
+def rigid_frames(blocks: Blocks, motion: FloatArray, origin: FloatArray, count: int) -> tuple[IntArray, FloatArray]:
+    """Parts that keep together, and where they are in frames from rest to a finite motion: p' = R p + d.
+
+    Returns the part of each block, (n_blocks,), 0 for what does not move, and [R | d] of each part in each frame,
+    (count + 1, n_parts, 3, 4), d in m, of points p from ``origin``, (3,) m.
+    """
+    centres, found = blocks.centroids - origin, np.empty((count + 1, len(blocks), 3, 4))
+    for frame, share in enumerate(np.linspace(0.0, 1.0, count + 1).tolist()):
+        rotation, travel = screws(share * motion)
+        found[frame, :, :, :3] = rotation
+        found[frame, :, :, 3] = centres + travel - np.einsum("nij,nj->ni", rotation, centres)
+    moving = np.flatnonzero(np.any(motion != 0, axis=1))
+    size = float(np.linalg.norm(np.ptp(blocks.vertices, axis=0)))
+    last = (found[-1, moving] / [1.0, 1.0, 1.0, size]).reshape(-1, 12)
+    _, first, part = np.unique(np.rint(last / SAME_POSE), axis=0, return_index=True, return_inverse=True)
+    parts = np.zeros(len(blocks), dtype=np.int64)
+    parts[moving] = 1 + part.ravel()
+    rest = np.broadcast_to(np.eye(3, 4), (count + 1, 1, 3, 4))
+    return parts, np.concatenate([rest, found[:, moving[first]]], axis=1)
 
 
 def pushed_motions(case: CaseResult) -> list[FloatArray]:

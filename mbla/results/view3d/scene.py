@@ -1,8 +1,7 @@
 """What the browser gets of one load case: arrays of the structure as built, its motion, marks, colours, words.
 
-The browser moves blocks by itself, by the screw of :func:`mbla.results.collapse.motion.moved_points`, so the data do
-not grow with the number of frames. Coordinates are those of the deck less an offset where the model lies far from the
-origin: graphics cards count with seven digits.
+The browser moves blocks straight between a few frames of :func:`mbla.results.collapse.motion.rigid_frames`. Coordinates
+are those of the deck less an offset where the model lies far from the origin: graphics cards count with seven digits.
 """
 
 from __future__ import annotations
@@ -19,7 +18,7 @@ from mbla.contacts.overlaps import triangulate_blocks
 from mbla.deck.sections.selectors import POSITIONS
 from mbla.model.model import Model
 from mbla.model.solids.plane import plane_axes
-from mbla.results.collapse.motion import largest_displacements
+from mbla.results.collapse.motion import largest_displacements, rigid_frames
 from mbla.results.listing.text import number
 from mbla.results.pictures.camera import axes_of, view_of_case
 from mbla.results.pictures.geometry import block_edges
@@ -32,6 +31,8 @@ from mbla.results.pictures.scene import scene_of as picture_of
 from mbla.results.pictures.ties import tie_marks
 from mbla.results.results import CaseResult, Results
 
+FRAMES = 4
+"""steps of a motion, straight between: where it turns by half a radian they take 0.2 % of the size of blocks"""
 FAR = 1e3
 """distance from the origin over the size of the model from which coordinates are drawn less an offset"""
 MARGIN = 0.04
@@ -59,6 +60,7 @@ def scene_of(results: Results, case: CaseResult, view: tuple[float, float] | Non
     of_block = triangulate_blocks(blocks, np.arange(len(blocks)))
     triangles = np.concatenate([of_block[block] for block in range(len(blocks))])
     owners = np.repeat(np.arange(len(blocks)), [len(of_block[block]) for block in range(len(blocks))])
+    parts, frames = rigid_frames(blocks, scene.motion, offset, FRAMES)
     eye = axes_of(*(view or view_of_case(scene)))[0]
     ground = bool(scene.slabs) and _ground(scene, offset)
     return {
@@ -72,8 +74,9 @@ def scene_of(results: Results, case: CaseResult, view: tuple[float, float] | Non
         "triangles": packed(triangles),
         "blockOfTriangle": packed(owners),
         "edges": packed(block_edges(blocks)),
-        "centroids": packed(blocks.centroids - offset),
-        "motion": packed(scene.motion) if moves else None,
+        "partOfBlock": packed(parts),
+        "motion": packed(frames) if moves else None,
+        "steps": FRAMES,
         "motionWords": motion_words(scene) if moves else "",
         "texts": block_texts(model, scene.clusters if moves else None),
         "colourings": colourings(scene),

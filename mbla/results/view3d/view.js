@@ -24,7 +24,7 @@ window.mblaDrawView3d = function (host, data) {
   }
   const vertices = unpacked(data.vertices), vertexStart = unpacked(data.vertexStart);
   const triangles = unpacked(data.triangles), blockOfTriangle = unpacked(data.blockOfTriangle);
-  const edges = unpacked(data.edges), centroids = unpacked(data.centroids);
+  const edges = unpacked(data.edges), partOfBlock = unpacked(data.partOfBlock);
   const motion = data.motion && unpacked(data.motion);
   const blockCount = vertexStart.length - 1;
   const blockOfVertex = new Int32Array(vertices.length / 3);
@@ -34,27 +34,13 @@ window.mblaDrawView3d = function (host, data) {
     textRows: unpacked(mark.textRows),
   }));
 
-  // --- finite motion: the screw of each block, p' = c + V u + R (p - c), see motion.py -----------------------------
+  // --- finite motion: p' = R p + d of each part, between the frames that motion.py gives -----------------------------
 
-  function screws(time) {
-    const rotation = new Float64Array(9 * blockCount), travel = new Float64Array(3 * blockCount);
-    for (let b = 0; b < blockCount; b++) {
-      const [ux, uy, uz, tx, ty, tz] = motion.subarray(6 * b, 6 * b + 6).map((value) => time * value);
-      const angle = Math.hypot(tx, ty, tz), unit = angle || 1;
-      const x = tx / unit, y = ty / unit, z = tz / unit;
-      const half = angle / 2, sinc = angle ? Math.sin(angle) / angle : 1;
-      const lag = angle ? (2 * Math.sin(half) ** 2) / angle : 0;
-      const K = [0, -z, y, z, 0, -x, -y, x, 0];
-      const square = [x * x - 1, x * y, x * z, x * y, y * y - 1, y * z, x * z, y * z, z * z - 1];
-      for (let i = 0; i < 3; i++) {
-        for (let j = 0; j < 3; j++) {
-          const k = 3 * i + j, one = i === j ? 1 : 0, turning = angle ? square[k] : 0;
-          rotation[9 * b + k] = one + Math.sin(angle) * K[k] + 2 * Math.sin(half) ** 2 * turning;
-          travel[3 * b + i] += (one + lag * K[k] + (1 - sinc) * turning) * [ux, uy, uz][j];
-        }
-      }
-    }
-    return { rotation, travel };
+  function poseAt(time) {  // 12 numbers a part: R by rows, each followed by its d
+    const steps = data.steps, size = motion.length / (steps + 1), before = Math.min(Math.floor(time * steps), steps - 1);
+    const share = time * steps - before, first = size * before, pose = new Float64Array(size);
+    for (let k = 0; k < size; k++) pose[k] = (1 - share) * motion[first + k] + share * motion[first + size + k];
+    return pose;
   }
 
   function carry(points, row, block, state, into, place, weight) {
@@ -63,11 +49,10 @@ window.mblaDrawView3d = function (host, data) {
       for (let i = 0; i < 3; i++) into[place + i] += weight * points[p + i];
       return;
     }
-    const c = 3 * block, arm = [points[p] - centroids[c], points[p + 1] - centroids[c + 1], points[p + 2] - centroids[c + 2]];
     for (let i = 0; i < 3; i++) {
-      const r = 9 * block + 3 * i, R = state.rotation;
-      const turned = R[r] * arm[0] + R[r + 1] * arm[1] + R[r + 2] * arm[2];
-      into[place + i] += weight * (centroids[c + i] + state.travel[c + i] + turned);
+      const r = 12 * partOfBlock[block] + 4 * i;
+      const turned = state[r] * points[p] + state[r + 1] * points[p + 1] + state[r + 2] * points[p + 2];
+      into[place + i] += weight * (turned + state[r + 3]);
     }
   }
 
@@ -145,7 +130,7 @@ window.mblaDrawView3d = function (host, data) {
   );
   let ghost = null;
   if (motion) {
-    const moves = (block) => motion.subarray(6 * block, 6 * block + 6).some((value) => value !== 0);
+    const moves = (block) => partOfBlock[block] > 0;
     const kept = [];
     for (let k = 0; k < edges.length; k += 2) if (moves(blockOfVertex[edges[k]])) kept.push(edges[k], edges[k + 1]);
     ghost = add(line(vertices, kept, "#8A8A8A", 1, { visible: false }));
@@ -224,7 +209,7 @@ window.mblaDrawView3d = function (host, data) {
 
   let time = 0, seeThrough = null;
   function show() {
-    const state = time > 0 ? screws(time) : null, moved = movedVertices(state);
+    const state = time > 0 ? poseAt(time) : null, moved = movedVertices(state);
     const rows = [], x = [], y = [], z = [];
     updates.forEach((update, index) => {
       if (!update) return;

@@ -1,7 +1,7 @@
 """A part of a page that shows one load case in three dimensions (only importer of plotly, extra ``report``).
 
 plotly.js is put into the page as it comes with the package, so nothing is asked of a network. The scene is a block of
-JSON with its arrays in base64; ``view.js`` draws it, and moves the mechanism by itself.
+JSON with its arrays in base64; ``view.js`` draws it, and moves the mechanism between the frames in it.
 """
 
 from __future__ import annotations

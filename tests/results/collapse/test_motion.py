@@ -15,6 +15,7 @@ from mbla.results.collapse.motion import (
     motion_scale,
     movable_size,
     moved_vertices,
+    rigid_frames,
     vertex_displacements,
 )
 from mbla.results.results import Results
@@ -82,3 +83,25 @@ def test_contact_points_move_with_the_mean_of_their_bodies(results: Results) -> 
     moved = mean_displacements(results.model.blocks, motion, bodies, contacts.points)
     assert moved[:4] == pytest.approx(np.tile([0.5, 0, 0], (4, 1)))
     assert not moved[4:].any()
+
+
+def test_frames_are_where_the_pictures_draw_the_blocks() -> None:
+    results = tower_results()
+    blocks, origin = results.model.blocks, np.array([3.0, -2.0, 1.0])
+    motion = np.array([[0.0] * 6, [0.3, 0, 0.1, 0, 0.5, 0.2], [0.0, 0, 0, 0, 0, 0]])
+    parts, frames = rigid_frames(blocks, motion, origin, 4)
+    assert parts.tolist() == [0, 1, 0]
+    own = parts[blocks.block_of_vertex]
+    for frame, share in zip(frames, (0.0, 0.25, 0.5, 0.75, 1.0), strict=True):
+        turned = np.einsum("vij,vj->vi", frame[own, :, :3], blocks.vertices - origin)
+        expected = moved_vertices(blocks, share * motion)
+        np.testing.assert_allclose(turned + frame[own, :, 3] + origin, expected, atol=1e-12)
+
+
+def test_blocks_that_move_as_one_are_one_part() -> None:
+    blocks = tower_results().model.blocks
+    turn = np.array([0.1, 0.4, -0.2])
+    motion = np.hstack([np.cross(turn, blocks.centroids), np.tile(turn, (len(blocks), 1))])
+    parts, frames = rigid_frames(blocks, motion, np.zeros(3), 2)
+    assert parts.tolist() == [1] * len(blocks)
+    assert frames.shape == (3, 2, 3, 4)
