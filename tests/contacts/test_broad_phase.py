@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
-from importlib import import_module
 
 import numpy as np
 import pytest
 import shapely
 
 from mbla.arrays import FloatArray, IntArray
-from mbla.contacts.broad_phase import NEAR_MISS, are_opposite, find_block_pairs, find_facet_pairs
+from mbla.contacts.broad_phase import MOST_PAIRS, NEAR_MISS, are_opposite, find_block_pairs, find_facet_pairs
 from mbla.contacts.contacts import ContactsRefused
 from mbla.contacts.facets import build_facets
 from mbla.contacts.narrow_phase import Patches, find_patches, judge
@@ -55,11 +55,8 @@ def test_boxes_share_more_than_the_tolerance_of_the_smaller_block(
         assert pairs_of(*extremes).tolist() == [[0, 1]] * deep
 
 
-def test_crowds_are_refused(monkeypatch: pytest.MonkeyPatch) -> None:
-    broad_phase = import_module("mbla.contacts.broad_phase")
-    monkeypatch.setattr(broad_phase, "MOST_PAIRS", 2)
-    monkeypatch.setattr(broad_phase, "PAIRS_OF_A_BLOCK", 0)
-    near = [cube_at((0.1 * x, 0.0, 0.0)) for x in range(3)]
+def test_crowds_are_refused() -> None:
+    near = [cube_at((0.001 * x, 0.0, 0.0)) for x in range(int(math.sqrt(2 * MOST_PAIRS)) + 2)]
     assert len(pairs_of(*near[:2])) == 1
     with pytest.raises(ContactsRefused) as refused:
         pairs_of(*near)

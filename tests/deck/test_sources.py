@@ -6,8 +6,7 @@ from pathlib import Path
 import pytest
 
 from mbla.deck import read_deck
-from mbla.deck.text import sources
-from mbla.deck.text.sources import SourceText
+from mbla.deck.text.sources import MAX_BYTES, SourceText
 from mbla.errors import DeckError, FileError, Message, Place
 from tests.deck.decks import BLOCK
 
@@ -56,9 +55,9 @@ def test_control_characters(tmp_path: Path, character: str) -> None:
     assert message == f"2:9 control character U+{ord(character):04X} is not allowed in a deck"
 
 
-def test_size_limit(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(sources, "MAX_BYTES", len(BLOCK) - 1)
-    assert "put large geometry and tables in files of their own" in refusal(tmp_path, BLOCK.encode())
+def test_size_limit(tmp_path: Path) -> None:
+    content = BLOCK.encode() + b"#" * MAX_BYTES
+    assert "put large geometry and tables in files of their own" in refusal(tmp_path, content)
 
 
 @pytest.mark.parametrize(
