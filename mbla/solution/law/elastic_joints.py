@@ -113,7 +113,7 @@ class ElasticJoints:
         """Numbers of the points with a compressive strength."""
         return np.flatnonzero(np.isfinite(self.program.limits.compression))
 
-    @property
+    @cached_property
     def dilates(self) -> bool:
         """Whether any joint lifts as it slides."""
         return bool(self.dilatancy.any())

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -28,12 +29,12 @@ class JointStep:
     work: float = 1.0
     held: FloatArray | float = 0.0
 
-    @property
+    @cached_property
     def normal_compliance(self) -> FloatArray:
         """1/(k_N h), (n_points,)."""
         return 1.0 / (self.joints.normal * self.length)
 
-    @property
+    @cached_property
     def shear_compliance(self) -> FloatArray:
         """1/(k_T h), (n_points,)."""
         return 1.0 / (self.joints.shear * self.length)

@@ -117,12 +117,15 @@ def length_of(reach: float) -> float:
 
 def reach_of(joints: ElasticJoints, state: StepState, direction: StepState) -> float:
     """How much of a direction leaves every joint within its law; infinite where none binds."""
-    lines = (
+    lines = [
         (state.normal + joints.program.limits.tension, direction.normal),
         (state.opening, direction.opening),
-        (joints.room(state.normal), -direction.normal[joints.crushable]),
-        (state.crushing, direction.crushing),
-    )
+    ]
+    if len(joints.crushable):
+        lines += [
+            (joints.room(state.normal), -direction.normal[joints.crushable]),
+            (state.crushing, direction.crushing),
+        ]
     cones = (
         (joints.limit(state.normal), state.shear, joints.friction * direction.normal, direction.shear),
         (state.speed, state.slip, direction.speed, direction.slip),

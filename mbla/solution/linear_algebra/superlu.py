@@ -61,7 +61,7 @@ def factors_on_the_diagonal(
     """
     order: Literal["NATURAL", "MMD_AT_PLUS_A"] = "NATURAL" if ordered else "MMD_AT_PLUS_A"
     options = {"SymmetricMode": True}
-    held = sp.csc_array(matrix)
+    held = matrix if isinstance(matrix, sp.csc_array) else sp.csc_array(matrix)
     try:
         factors = spla.splu(held, permc_spec=order, diag_pivot_thresh=threshold, relax=SUBTREE, options=options)
     except RuntimeError:

@@ -74,13 +74,14 @@ def _kinematic_correction(further: ConditionCones, u: FloatArray, opening: float
     weak = 1.0 / (speed * speed)  # not **, which raises beyond numbers
     weights[np.isfinite(program.limits.compression)] = weak * np.eye(program.components)
     metric, of_conditions = block_diagonal(weights), further.hessian(wanted)
-    normal = further.with_slacks(matrix @ metric @ matrix.T, of_conditions)
+    moving, lacking = matrix.T, held.T
+    normal = further.with_slacks(matrix @ metric @ moving, of_conditions)
     solve = bordered_solver(normal, program.live_load, np.inf)
     if solve is None:
         return None
     delta = np.zeros_like(u)
     for _ in range(3):
-        misfit = matrix @ (metric @ (target.ravel() - matrix.T @ (u + delta)))
-        misfit += held @ (of_conditions @ (wanted - held.T @ (u + delta)))
+        misfit = matrix @ (metric @ (target.ravel() - moving @ (u + delta)))
+        misfit += held @ (of_conditions @ (wanted - lacking @ (u + delta)))
         delta = delta + solve(misfit)[:-1]
     return u + delta if np.isfinite(delta).all() else None

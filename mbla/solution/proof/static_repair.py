@@ -245,12 +245,13 @@ def _normal(further: ConditionCones, limits: YieldLimits, now: _Forces, free: fl
     """By normal equations: multipliers of the rows, and the change of the load factor."""
     matrix, held, live = further.moving.equilibrium_matrix, further.held, further.moving.live_load
     weights, of_slacks = force_metric(limits, now.x), further.cones.inverse_hessian(now.s)
-    normal = further.with_slacks(matrix @ weights @ matrix.T, of_slacks)
+    moving, lacking = matrix.T, held.T
+    normal = further.with_slacks(matrix @ weights @ moving, of_slacks)
     solve = bordered_solver(normal, live, free * free)  # not **, which raises beyond numbers
 
     def forces_of(y: FloatArray) -> _Forces:
-        x = (weights @ (matrix.T @ y[:-1])).reshape(now.x.shape)
-        return _Forces(x, of_slacks @ (held.T @ y[:-1]), float(y[-1]))
+        x = (weights @ (moving @ y[:-1])).reshape(now.x.shape)
+        return _Forces(x, of_slacks @ (lacking @ y[:-1]), float(y[-1]))
 
     return None if solve is None else (solve, forces_of)
 
