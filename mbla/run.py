@@ -10,6 +10,7 @@ from typing import TypeVar
 
 from mbla.assembly import Assembly, build_assembly
 from mbla.codes.assess import assessed
+from mbla.contacts.known import KnownContacts
 from mbla.deck import Deck, read_deck
 from mbla.errors import UsageError
 from mbla.model import build_model
@@ -96,12 +97,14 @@ def solve_deck(
     progress: Progress | None,
     started: float,
     states: StressFreeStates | None = None,
+    contacts: KnownContacts | None = None,
 ) -> Results:
     """The stages from model to verification for every load case asked for; writes nothing but the status file.
 
-    states : of stress-free assemblies that are known from decks before, to which those of this one are added
+    states   : of stress-free assemblies that are known from decks before, to which those of this one are added
+    contacts : of the deck before, in whose place those of this one are kept
     """
-    *_, results = solved_case_by_case(deck, options, status_file, progress, started, states=states)
+    *_, results = solved_case_by_case(deck, options, status_file, progress, started, states=states, contacts=contacts)
     return results
 
 
@@ -113,6 +116,7 @@ def solved_case_by_case(
     started: float,
     at_work: Tell[Results] = unheard,
     states: StressFreeStates | None = None,
+    contacts: KnownContacts | None = None,
 ) -> Iterator[Results]:
     """As ``solve_deck``: the results so far, before any load case is solved and after each of them.
 
@@ -126,7 +130,7 @@ def solved_case_by_case(
     model = build_model(deck)
     load_cases = select_cases(model, options.cases)
     read = time.perf_counter()
-    assembly = build_assembly(deck, model)
+    assembly = build_assembly(deck, model, contacts)
     found = time.perf_counter()
     settings = solver_settings(deck.analysis)
     with timing() as stopwatch:

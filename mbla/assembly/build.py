@@ -6,14 +6,17 @@ from mbla.assembly.assembly import Assembly, assembly_of
 from mbla.assembly.findings import glue_findings, objective_findings, settlement_findings
 from mbla.contacts.contacts import ContactsRefused
 from mbla.contacts.findings import bent_faults, overlap_findings
+from mbla.contacts.known import KnownContacts
 from mbla.contacts.search import find_contacts
 from mbla.deck.deck import Deck
 from mbla.errors import DeckError, first_faults
 from mbla.model.model import Model
 
 
-def build_assembly(deck: Deck, model: Model) -> Assembly:
+def build_assembly(deck: Deck, model: Model, known: KnownContacts | None = None) -> Assembly:
     """The assembly of a model.
+
+    known : contacts of the model before, in whose place those of this one are kept
 
     Raises
     ------
@@ -21,7 +24,7 @@ def build_assembly(deck: Deck, model: Model) -> Assembly:
         for blocks that overlap, bent faces in contact, glue that leaves nothing to move, and what no search can handle
     """
     try:
-        contacts = find_contacts(model, deck.contacts)
+        contacts = find_contacts(model, deck.contacts) if known is None else known.of(model, deck.contacts)
     except ContactsRefused as refused:
         raise DeckError([deck.fault_at(refused.path, refused.message)]) from refused
     assembly = assembly_of(model, contacts)

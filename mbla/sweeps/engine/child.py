@@ -24,6 +24,7 @@ from multiprocessing.connection import Connection
 from pathlib import Path
 from typing import Any
 
+from mbla.contacts.known import KnownContacts
 from mbla.deck.deck import Deck, deck_of_files
 from mbla.deck.sections.assessment import LIMIT_STATES
 from mbla.deck.text.include import read_files
@@ -162,12 +163,12 @@ class PointRunner:
     """Points of one plan, one after the other.
 
     The deck is taken as it was when it was first read. States of the stress-free assembly are handed on to the next
-    point, as by far the most of what points of one dead load have in common.
+    point, as by far the most of what points of one dead load have in common, and so are its contacts.
     """
 
     def __init__(self, plan: Plan) -> None:
         self.plan = plan
-        self.states = StressFreeStates()
+        self.states, self.contacts = StressFreeStates(), KnownContacts()
         self._files = read_files(Path(plan.deck))
         self._places = result_places(plan.results, plan.cases)
 
@@ -201,7 +202,7 @@ class PointRunner:
         return min(found, key=_seconds)
 
     def _by_itself(self, task: Task) -> tuple[int, str, dict[str, Plain]]:
-        self.states = StressFreeStates()
+        self.states, self.contacts = StressFreeStates(), KnownContacts()
         return self._solve(task)
 
     def _solve(self, task: Task) -> tuple[int, str, dict[str, Plain]]:
@@ -211,7 +212,7 @@ class PointRunner:
         deck = requested_only(deck, plan)
         status, stem = io.StringIO(), Path(plan.deck).stem
         status_file = StatusFile(status, deck.title)
-        results = solve_deck(deck, RunOptions(cases=plan.cases), status_file, None, started, self.states)
+        results = solve_deck(deck, RunOptions(cases=plan.cases), status_file, None, started, self.states, self.contacts)
         if plan.keep in ("all", state_of(results.exit_code)):
             with OutputFolder(Path(plan.folder) / FOLDER / str(task.number), stem, force=True) as out:
                 out.write_text(f"{stem}.sta", status.getvalue())

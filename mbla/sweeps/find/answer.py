@@ -14,6 +14,7 @@ import math
 from dataclasses import dataclass, replace
 
 from mbla.assembly import build_assembly
+from mbla.contacts.known import KnownContacts
 from mbla.deck import Deck, read_deck_text
 from mbla.errors import DeckError, UsageError
 from mbla.model import Model, build_model
@@ -76,10 +77,13 @@ class Answer:
     uncertainty: float = 0.0
 
 
-def answer_at(deck: Deck, question: Question, x: float) -> Answer:
-    """The result for a value; a deck that is refused with it has none, and says why."""
+def answer_at(deck: Deck, question: Question, x: float, contacts: KnownContacts | None = None) -> Answer:
+    """The result for a value; a deck that is refused with it has none, and says why.
+
+    contacts : of the value before, in whose place those of this one are kept
+    """
     try:
-        varied, structure = _structure(deck, question, f"{question.parameter}={x!r}")
+        varied, structure = _structure(deck, question, f"{question.parameter}={x!r}", contacts=contacts)
     except DeckError as error:
         return Answer(x, math.nan, math.nan, math.nan, REFUSED, verified=False, words=str(error.faults[0]), solves=0)
     answer = _stands if question.kind == "stands" else _factor
@@ -91,11 +95,13 @@ def refuse_unfit_deck(deck: Deck, question: Question) -> None:
     _structure(deck, question)
 
 
-def _structure(deck: Deck, question: Question, *overrides: str) -> tuple[Deck, Structure]:
+def _structure(
+    deck: Deck, question: Question, *overrides: str, contacts: KnownContacts | None = None
+) -> tuple[Deck, Structure]:
     """The deck with some values changed, and its structure; raises DeckError where it is refused."""
     varied = read_deck_text(deck.sources[0].text, deck.path, (*deck.overrides, *overrides), expected=False)
     model = build_model(varied)
-    return varied, Structure(build_assembly(varied, model), _case(model, question))
+    return varied, Structure(build_assembly(varied, model, contacts), _case(model, question))
 
 
 def _case(model: Model, question: Question) -> LoadCase:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from mbla import __version__
+from mbla.contacts.known import KnownContacts
 from mbla.deck import Deck
 from mbla.results.listing.text import counted, full_sentence, number, sentence, small, table
 from mbla.results.record.json_values import as_json
@@ -233,10 +234,10 @@ def find(deck: Deck, options: Any) -> Finding:
         As a run does.
     """
     question = question_of(deck, options)
-    answers: list[Answer] = []
+    answers, contacts = list[Answer](), KnownContacts()
 
     def at(x: float) -> Answer:
-        answers.append(answer_at(deck, question, x))
+        answers.append(answer_at(deck, question, x, contacts))
         return answers[-1]
 
     samples = scan(*question.bounds, question.scan, at)
