@@ -3,25 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 
 from mbla.deck.deck import Deck, check_regular, read_deck
 from mbla.deck.parameter_keys import path_of_key, unit_of, vector_at
-from mbla.deck.references import side_files
 from mbla.deck.suggestions import unknown
-from mbla.deck.text.include import confined
 from mbla.deck.text.overrides import LABEL, RefusedError
-from mbla.deck.text.tree import KeyPath, Tree, key_text
+from mbla.deck.text.tree import KeyPath, Tree
 from mbla.errors import DeckError, Fault, FileError, Message, Place
 from mbla.sweeps.base_rules import base_faults
 from mbla.sweeps.design.design import Point, Sources, Vector
 from mbla.sweeps.file.content import DIRECTIONS, key_paths, way_of
 from mbla.sweeps.file.read import Sweep
 from mbla.sweeps.file.rules import key_places
-from mbla.sweeps.identity import deck_fingerprint, effective_tree, file_hashes, key_hash
-from mbla.sweeps.plan import Plain, override_texts
+from mbla.sweeps.identity import PointKeys, deck_fingerprint, effective_tree
+from mbla.sweeps.plan import override_texts
 
 
 @dataclass(frozen=True)
@@ -46,7 +44,6 @@ class Base:
     cases: tuple[str, ...]
     paths: Mapping[str, tuple[KeyPath, ...]]
     fingerprint: str
-    _files: dict[tuple[KeyPath, str], list[str]] = field(default_factory=dict, repr=False, compare=False)
 
     @cached_property
     def units(self) -> Mapping[str, str]:
@@ -67,34 +64,12 @@ class Base:
         known: Mapping[str, object] = self.tree.data.get("parameters", {})
         return Sources(self.sweep.content, self.vectors, self.units, known, self.sweep.fault_at)
 
-    def key_of(self, settings: Mapping[str, Plain]) -> str:
-        """Key of a point: hash of the base and of the values set in it, with the content of files among them."""
-        files: list[str] = []
-        for key, value in settings.items():
-            if isinstance(value, str | list | dict):
-                files += [line for named in side_files(value, self._path_of[key]) for line in self._file_hashes(named)]
-        return key_hash(self.fingerprint, settings, sorted(files))
-
     @cached_property
-    def _path_of(self) -> Mapping[str, KeyPath]:
-        """Path of each key of a parameter."""
+    def keys(self) -> PointKeys:
+        """What makes the keys of points."""
         named = ((key_paths(name, self.sweep.content.parameters[name]), paths) for name, paths in self.paths.items())
-        return {key: path for keys, paths in named for key, path in zip(keys, paths, strict=True)}
-
-    def _file_hashes(self, named: tuple[KeyPath, str]) -> list[str]:
-        """Hashes of a file that a point names, read once; a file that is missing is the fault of its points."""
-        if named not in self._files:
-            try:
-                self._files[named] = file_hashes([named], self._side_file)
-            except FileError:
-                self._files[named] = [f"{key_text(named[0])} cannot be read"]
-        return self._files[named]
-
-    def _side_file(self, path: KeyPath, name: str) -> Path:
-        """A file that a point names: relative to the deck, as what ``--set`` sets; raises FileError for none."""
-        found = confined(self.path.parent, name)
-        check_regular(found)
-        return found
+        path_of = {key: path for keys, paths in named for key, path in zip(keys, paths, strict=True)}
+        return PointKeys(self.fingerprint, self.path.parent, path_of.__getitem__)
 
     def _unit(self, name: str) -> str:
         parameter = self.sweep.content.parameters[name]

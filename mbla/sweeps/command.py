@@ -27,7 +27,7 @@ from mbla.sweeps.plan import FAILED, Outcome, Plan, Task, as_named
 from mbla.sweeps.results import result_columns
 from mbla.sweeps.tables.sweep_json import counts, sweep_json
 from mbla.sweeps.tables.sweep_table import SweepColumn, SweepTable, sweep_table, with_columns
-from mbla.sweeps.tables.write_tables import FRAGILITY, Conclusion, TableFiles, refuse_tables, write_tables
+from mbla.sweeps.tables.write_tables import FRAGILITY, StudyResult, TableFiles, refuse_tables, write_tables
 from mbla.sweeps.words import Progress
 
 FAILED_POINTS = 8
@@ -75,7 +75,7 @@ class Prepared:
     keys       : of each point of the design, in its order
     columns    : of results
     files      : that are written next to sweep.csv and sweep.json
-    conclude   : what follows from the table of all points
+    study_of   : what follows from the table of all points
     """
 
     name: str
@@ -86,7 +86,7 @@ class Prepared:
     columns: tuple[SweepColumn, ...]
     plan: Plan
     files: TableFiles
-    conclude: Callable[[SweepTable], Conclusion]
+    study_of: Callable[[SweepTable], StudyResult]
 
     @property
     def tasks(self) -> tuple[Task, ...]:
@@ -139,21 +139,21 @@ def prepare(sweep: Sweep, options: SweepOptions) -> Prepared:
         deck=content.deck,
         title=content.title,
         design=design,
-        keys=tuple(base.key_of(point.settings) for point in design.points),
+        keys=tuple(base.keys.of(point.settings) for point in design.points),
         columns=result_columns(content.results, base.cases, base.deck.units),
         plan=plan,
         files=TableFiles(output.parquet or options.parquet, output.hdf5 or options.hdf5),
-        conclude=partial(_fragility, content.fragility),
+        study_of=partial(_fragility, content.fragility),
     )
 
 
-def _fragility(asked: FragilitySection | None, table: SweepTable) -> Conclusion:
+def _fragility(asked: FragilitySection | None, table: SweepTable) -> StudyResult:
     """Probabilities of a sweep that asks for them."""
     if asked is None:
-        return Conclusion()
+        return StudyResult()
     found = fragility_of(table, asked.result, asked.demand, asked.confidence)
     texts = {FRAGILITY: fragility_csv(found, table)}
-    return Conclusion(record={"fragility": found}, texts=texts, lines=fragility_lines(found, table))
+    return StudyResult(record={"fragility": found}, texts=texts, lines=fragility_lines(found, table))
 
 
 def run_sweep(prepared: Prepared, options: SweepOptions, report: Report | None = None) -> Finished:
@@ -207,23 +207,23 @@ def _finish(prepared: Prepared, finished: Mapping[str, Outcome], notices: Sequen
     design, keys = prepared.design, prepared.keys
     table = sweep_table(prepared.title, design, prepared.columns, finished, keys)
     failed = any(finished[key].state == FAILED for key in keys if key in finished)
-    conclusion = prepared.conclude(table)
-    table = with_columns(table, conclusion.columns)
+    study = prepared.study_of(table)
+    table = with_columns(table, study.columns)
     record = sweep_json(
         table,
         sweep=prepared.name,
         deck=prepared.deck,
         created=datetime.now(UTC).isoformat(timespec="seconds"),
-        exit_code=conclusion.exit_code if conclusion.exit_code is not None else FAILED_POINTS if failed else 0,
+        exit_code=study.exit_code if study.exit_code is not None else FAILED_POINTS if failed else 0,
         left_out=design.left_out,
         seconds=seconds,
         notices=(*notices, *(Notice("notice", "sweep-design", text) for text in design.remarks)),
     )
-    record |= conclusion.record
+    record |= study.record
     remark, folder = "", Path(prepared.plan.folder)
     if not counts(table)["unfinished"]:
-        record, remark = write_tables(folder, record, table, prepared.files, conclusion)
-    return Finished(record, table, record["exit_code"], folder, conclusion.lines, remark)
+        record, remark = write_tables(folder, record, table, prepared.files, study)
+    return Finished(record, table, record["exit_code"], folder, study.lines, remark)
 
 
 def dry_run_json(prepared: Prepared) -> dict[str, Any]:

@@ -5,18 +5,20 @@ from __future__ import annotations
 import hashlib
 import json
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
 from functools import cache
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any
 
 from mbla import __version__
-from mbla.deck.deck import Deck, read_deck
+from mbla.deck.deck import Deck, check_regular, read_deck
+from mbla.deck.parameter_keys import path_of_key
 from mbla.deck.references import side_files
-from mbla.deck.text.include import read_files
-from mbla.deck.text.overrides import apply_override
+from mbla.deck.text.include import confined, read_files
+from mbla.deck.text.overrides import RefusedError, apply_override
 from mbla.deck.text.tree import KeyPath, Tree, key_text
-from mbla.errors import DeckError
+from mbla.errors import DeckError, FileError
 
 WITHOUT_EFFECT = ("title", "output", "expected", "include")
 """keys that do not change what a deck gives; what `include` names is merged in"""
@@ -65,8 +67,52 @@ def canonical(value: Any) -> str:
 
 
 def key_hash(fingerprint: str, settings: Any, files: Sequence[str]) -> str:
-    """Hash of an effective deck by its base and the values set in it."""
+    """Hash of an effective deck by its base, the values set in it, and the hashes of files that these name."""
     return _hash([fingerprint, canonical(settings), *files])
+
+
+@dataclass(frozen=True)
+class PointKeys:
+    """Keys of points: hash of the base deck, of the values set in it, and of the files that these name.
+
+    fingerprint : of the base deck
+    folder      : of the base deck, in which the files are
+    path_of     : from the key path of a value to its path in the deck
+    """
+
+    fingerprint: str
+    folder: Path
+    path_of: Callable[[str], KeyPath]
+    _files: dict[tuple[KeyPath, str], str] = field(default_factory=dict, repr=False, compare=False)
+
+    def of(self, settings: Mapping[str, Any]) -> str:
+        """Key of a point, 64 hex digits."""
+        texts = ((key, value) for key, value in settings.items() if isinstance(value, str | list | dict))
+        named = [each for key, value in texts for each in side_files(value, self.path_of(key))]
+        return key_hash(self.fingerprint, settings, sorted(map(self._line, named)))
+
+    def _line(self, named: tuple[KeyPath, str]) -> str:
+        """Place and hash of a file, read once; one that is missing is the fault of its points."""
+        if named not in self._files:
+            try:
+                self._files[named] = file_hashes([named], self._side_file)[0]
+            except FileError:
+                self._files[named] = f"{key_text(named[0])} cannot be read"
+        return self._files[named]
+
+    def _side_file(self, path: KeyPath, name: str) -> Path:
+        """A file that a point names: relative to the deck, as what ``--set`` sets; raises FileError for none."""
+        found = confined(self.folder, name)
+        check_regular(found)
+        return found
+
+
+def path_in(deck: Deck, key: str) -> KeyPath:
+    """Path of the value that a key path names in a deck, or would have in it."""
+    try:
+        return path_of_key(deck.data, key)
+    except RefusedError:
+        return tuple(int(word) if word.isdecimal() else word for word in key.strip().split("."))
 
 
 def _hash(lines: Sequence[str]) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -12,12 +13,12 @@ from mbla.results.listing.text import INDENT
 from mbla.sweeps.command import Prepared, SweepOptions
 from mbla.sweeps.design.design import Design, Dimension, Point
 from mbla.sweeps.engine.engine import EngineOptions
-from mbla.sweeps.identity import fingerprint_of, key_hash, program_identity
+from mbla.sweeps.identity import PointKeys, fingerprint_of, path_in, program_identity
 from mbla.sweeps.journal import SINGLE
 from mbla.sweeps.plan import Plain, Plan
 from mbla.sweeps.results import result_columns
 from mbla.sweeps.tables.sweep_table import SweepColumn, SweepTable
-from mbla.sweeps.tables.write_tables import Conclusion, TableFiles, refuse_tables
+from mbla.sweeps.tables.write_tables import StudyResult, TableFiles, refuse_tables
 
 
 def study_options(deck: Deck, run: RunOptions, name: str, engine: EngineOptions) -> SweepOptions:
@@ -40,7 +41,7 @@ def prepared_study(
     folder: Path,
     column: SweepColumn,
     points: Mapping[Any, Mapping[str, Plain]],
-    conclude: Callable[[SweepTable], Conclusion],
+    study_of: Callable[[SweepTable], StudyResult],
     time_limit: float | None = None,
     timed: bool = False,
 ) -> Prepared:
@@ -63,17 +64,18 @@ def prepared_study(
         program=program_identity(),
         timed=timed,
     )
+    keys = PointKeys(plan.fingerprint, deck.path.resolve().parent, partial(path_in, deck))
     made = tuple(Point(n, (n - 1,), (value,), own) for n, (value, own) in enumerate(points.items(), 1))
     return Prepared(
         name=name,
         deck=deck.path.name,
         title=deck.title,
         design=Design((column,), (Dimension(column.dimension, len(made)),), made, (tuple(points),)),
-        keys=tuple(key_hash(plan.fingerprint, own, ()) for own in points.values()),
+        keys=tuple(map(keys.of, points.values())),
         columns=result_columns(plan.results, plan.cases, deck.units),
         plan=plan,
         files=TableFiles(),
-        conclude=conclude,
+        study_of=study_of,
     )
 
 

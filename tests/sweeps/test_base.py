@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 
 import pytest
@@ -14,7 +15,7 @@ from mbla.model.blocks.arch import ArchItem
 from mbla.sweeps.base import Base, check_points
 from mbla.sweeps.design.build import design_of
 from mbla.sweeps.design.design import Point
-from mbla.sweeps.identity import fingerprint_of, key_hash
+from mbla.sweeps.identity import PointKeys, fingerprint_of, key_hash, path_in
 from mbla.sweeps.plan import override_texts
 from tests.deck.decks import write
 from tests.sweeps.file.sweeps import ALL_WAYS, ARCH, GOOD, base_of
@@ -169,7 +170,7 @@ def test_what_counts(tmp_path: Path, change: Callable[[str], str]) -> None:
 
 def test_keys_of_points(base: Base) -> None:
     keys = {
-        base.key_of(settings)
+        base.keys.of(settings)
         for settings in (
             {},
             {"parameters.mu": 0.3},
@@ -181,7 +182,7 @@ def test_keys_of_points(base: Base) -> None:
     }
     assert len(keys) == 6
     assert all(len(key) == 64 for key in keys)
-    assert base.key_of({"parameters.t": 0.1, "parameters.mu": 0.3}) == base.key_of(
+    assert base.keys.of({"parameters.t": 0.1, "parameters.mu": 0.3}) == base.keys.of(
         {"parameters.mu": 0.3, "parameters.t": 0.1}
     )
 
@@ -219,8 +220,16 @@ def test_files_that_the_deck_names_count(tmp_path: Path) -> None:
 def test_files_that_a_point_names_count(tmp_path: Path, settings: dict[str, object]) -> None:
     a, b = with_tables(tmp_path / "a", -1, -2), with_tables(tmp_path / "b", -1, -3)
     assert a.fingerprint == b.fingerprint
-    assert a.key_of(settings) != b.key_of(settings)  # type: ignore[arg-type]
-    assert a.key_of({"parameters.mu": 1.0}) == b.key_of({"parameters.mu": 1.0})
+    assert a.keys.of(settings) != b.keys.of(settings)
+    assert a.keys.of({"parameters.mu": 1.0}) == b.keys.of({"parameters.mu": 1.0})
+
+
+def test_files_that_a_setting_of_a_study_names_count(tmp_path: Path) -> None:
+    """In a load case that the deck does not have, too."""
+    settings = {"load_cases.interact": {"live": [{"table": "more.csv"}]}}
+    decks = [with_tables(tmp_path / name, -1, force).deck for name, force in (("a", -2), ("b", -2), ("c", -3))]
+    first, same, other = (PointKeys("0" * 64, deck.folder, partial(path_in, deck)).of(settings) for deck in decks)
+    assert first == same != other
 
 
 @pytest.mark.parametrize("text", ["\N{GRINNING FACE}", "a\x85b", "a\u2028b", 'q"\\', "tab\tx", "=mu", "no", "1e3", "é"])

@@ -27,7 +27,7 @@ from mbla.sweeps.pictures.sheet import count_words, draw_marks, mark_handles
 from mbla.sweeps.plan import Task
 from mbla.sweeps.studies import heading_lines, prepared_study, study_options
 from mbla.sweeps.tables.sweep_table import SweepColumn, SweepTable
-from mbla.sweeps.tables.write_tables import Conclusion
+from mbla.sweeps.tables.write_tables import StudyResult
 
 RESULTS = (
     *("status", "verified", "load_factor", "associative_load_factor", "static_bound", "kinematic_bound"),
@@ -67,22 +67,22 @@ def prepared_diagram(deck: Deck, run: RunOptions, question: Question, folder: Pa
     results = (*RESULTS, *(f"powers.{name}" for name in question.pair))
     fixed = (*run.overrides, *question.fixed)
     column = AZIMUTH if question.kind == DIRECTION else ANGLE
-    conclude = partial(conclusion_of, deck, question)
+    study_of = partial(study_result_of, deck, question)
     return prepared_study(
-        deck, "interact", fixed, (question.case,), results, folder, column, question.settings, conclude
+        deck, "interact", fixed, (question.case,), results, folder, column, question.settings, study_of
     )
 
 
 def factor_ratio(deck: Deck, run: RunOptions, pair: Sequence[str]) -> float:
     """Load factor of the second load alone over that of the first; 1 where either has none."""
-    alone = prepared_study(deck, "", run.overrides, pair, ("load_factor",), Path(), ANGLE, {}, lambda _: Conclusion())
+    alone = prepared_study(deck, "", run.overrides, pair, ("load_factor",), Path(), ANGLE, {}, lambda _: StudyResult())
     results = PointRunner(alone.plan).run(Task("", 0, {})).results
     first, second = (results.get(f"{name}.load_factor") or 0.0 for name in pair)
     usable = isinstance(first, float) and isinstance(second, float) and min(first, second) > 0
     return second / first if usable else 1.0  # type: ignore[operator]
 
 
-def conclusion_of(deck: Deck, question: Question, table: SweepTable) -> Conclusion:
+def study_result_of(deck: Deck, question: Question, table: SweepTable) -> StudyResult:
     """What follows from the points."""
     points = points_of(table, question)
     domain = domain_of(points, question)
@@ -95,7 +95,7 @@ def conclusion_of(deck: Deck, question: Question, table: SweepTable) -> Conclusi
         lines += sentence(text)
     title = [deck.title, *words[:2]]
     rule = deck.analysis.flow_rule.replace("_", "-")
-    return Conclusion(
+    return StudyResult(
         columns=factors,
         record={"interaction": _record(question, points, domain, words)},
         pictures={"interact": partial(draw_diagram, title, rule, question, points, domain)},

@@ -125,7 +125,7 @@ class TableFiles:
 
 
 @dataclass(frozen=True)
-class Conclusion:
+class StudyResult:
     """What follows from the points of a sweep together.
 
     columns   : further ones of the table
@@ -160,7 +160,7 @@ def refuse_tables(folder: Path, files: TableFiles, *, replace: bool) -> None:
 
 
 def write_tables(
-    folder: Path, record: Mapping[str, Any], table: SweepTable, files: TableFiles, conclusion: Conclusion
+    folder: Path, record: Mapping[str, Any], table: SweepTable, files: TableFiles, study: StudyResult
 ) -> tuple[dict[str, Any], str]:
     """Write the files; the record with their names, as in sweep.json, and why there are no pictures, if that is so.
 
@@ -171,16 +171,16 @@ def write_tables(
     UsageError
         what Parquet needs is not installed
     """
-    remark = _without_pictures() if conclusion.pictures else ""
+    remark = _without_pictures() if study.pictures else ""
     with OutputFolder(folder, "sweep", True, secondary=True) as out:
         out.write_text(CSV, csv_text([column.header for column in table.columns], table.values))
-        for name, text in conclusion.texts.items():
+        for name, text in study.texts.items():
             out.write_text(name, text)
         if files.parquet:
             out.write_bytes(PARQUET, sweep_parquet(record, table))
         if files.hdf5:
             out.write_bytes(HDF5, sweep_hdf5(record, table))
-        for stem, draw in () if remark else conclusion.pictures.items():
+        for stem, draw in () if remark else study.pictures.items():
             for ending in PICTURES:
                 with out.writing(f"{stem}.{ending}") as path:
                     draw(path)

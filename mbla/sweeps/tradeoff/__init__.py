@@ -1,4 +1,4 @@
-"""Speed against accuracy on one deck, a sweep over its settings: ladder -> points -> distances -> front, advice.
+"""Speed against accuracy on one deck, a sweep over its settings: settings -> points -> distances -> front, advice.
 
-``ladder.py`` has the settings, ``study.py`` runs them, reports and draws, ``trade.py`` compares.
+``settings.py`` has the settings, ``study.py`` runs them, reports and draws, ``trade.py`` compares.
 """

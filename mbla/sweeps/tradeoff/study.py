@@ -37,8 +37,8 @@ from mbla.sweeps.engine.supervised import STOPPED
 from mbla.sweeps.plan import DONE
 from mbla.sweeps.studies import heading_lines, prepared_study, study_options
 from mbla.sweeps.tables.sweep_table import SweepColumn, SweepTable
-from mbla.sweeps.tables.write_tables import Conclusion
-from mbla.sweeps.tradeoff.ladder import REFERENCE, Rung, ladder_of, named_rungs
+from mbla.sweeps.tables.write_tables import StudyResult
+from mbla.sweeps.tradeoff.settings import REFERENCE, Setting, named_settings, settings_of
 from mbla.sweeps.tradeoff.trade import Advice, CaseTrade, advice, trade_of
 
 RESIDUALS = (
@@ -68,24 +68,24 @@ def tradeoff(deck: Deck, run: RunOptions, options: Any, report: Report | None) -
         Files are in the way or cannot be written.
     """
     until = None if options.time_limit is None else time.monotonic() + options.time_limit
-    named = named_rungs(options.knob, options.setting)
+    named = named_settings(options.knob, options.setting)
     chosen = study_options(deck, run, "tradeoff", EngineOptions(until=until, threads=run.threads))
     assert chosen.folder is not None
     model = build_model(deck)
     build_assembly(deck, model)  # what is wrong with it is reported before a process is started
     cases = {case.deck_name: case for case in select_cases(model, run.cases)}
-    rungs = ladder_of(deck, run.overrides, named)
-    points = {rung.name: rung.settings for rung in rungs if not rung.unfit}
-    conclude = partial(conclusion_of, deck, model, tuple(cases.values()), rungs, options.wanted_error)
-    asked = (run.overrides, tuple(cases), RESULTS, chosen.folder, SETTING, points, conclude)
+    settings = settings_of(deck, run.overrides, named)
+    points = {setting.name: setting.settings for setting in settings if not setting.unfit}
+    study_of = partial(study_result_of, deck, model, tuple(cases.values()), settings, options.wanted_error)
+    asked = (run.overrides, tuple(cases), RESULTS, chosen.folder, SETTING, points, study_of)
     return run_sweep(prepared_study(deck, "tradeoff", *asked, options.run_limit, timed=True), chosen, report)
 
 
-def conclusion_of(
-    deck: Deck, model: Model, cases: Sequence[LoadCase], rungs: Sequence[Rung], wanted: float, results: SweepTable
-) -> Conclusion:
+def study_result_of(
+    deck: Deck, model: Model, cases: Sequence[LoadCase], settings: Sequence[Setting], wanted: float, results: SweepTable
+) -> StudyResult:
     """What follows from the points, which are the settings that apply."""
-    trades = [_trade(model, case, [rung for rung in rungs if not rung.unfit], results) for case in cases]
+    trades = [_trade(model, case, [setting for setting in settings if not setting.unfit], results) for case in cases]
     advices = [advice([trade], wanted) for trade in trades]
     together = [advice(trades, wanted)] if len(trades) > 1 else []
     columns: list[tuple[SweepColumn, Values]] = []
@@ -95,14 +95,14 @@ def conclusion_of(
         columns.append((SweepColumn(f"{before}distance", "", words, "float", "result"), trade.distance))
         words = "on the Pareto front of time and distance"
         columns.append((SweepColumn(f"{before}front", "", words, "bool", "result"), trade.front))
-    return Conclusion(
+    return StudyResult(
         columns=columns,
-        record={"tradeoff": _record(trades, [*advices, *together], rungs, wanted)},
+        record={"tradeoff": _record(trades, [*advices, *together], settings, wanted)},
         pictures={
             f"tradeoff_{trade.name}": partial(draw_trade, deck.title, trade, one.sentence)
             for trade, one in zip(trades, advices, strict=True)
         },
-        lines=_lines(deck, trades, [*advices, *together], rungs, results),
+        lines=_lines(deck, trades, [*advices, *together], settings, results),
         exit_code=_exit_code(trades, results),
     )
 
@@ -114,7 +114,7 @@ def _exit_code(trades: Sequence[CaseTrade], results: SweepTable) -> int:
     return 0 if all(trade.certain for trade in trades) else SolverError.exit_status
 
 
-def _trade(model: Model, case: LoadCase, rungs: Sequence[Rung], results: SweepTable) -> CaseTrade:
+def _trade(model: Model, case: LoadCase, settings: Sequence[Setting], results: SweepTable) -> CaseTrade:
     """What each setting gave for one load case."""
     columns = {column.path: column for column in results.of_role("result") if column.case == case.deck_name}
 
@@ -133,7 +133,7 @@ def _trade(model: Model, case: LoadCase, rungs: Sequence[Rung], results: SweepTa
     verified = answered | (status == Status.APPROXIMATE.value) & (results["state"] == DONE)
     shown = {"lower": figures(paths[1]), "upper": figures(paths[2]), "resid.": residual}
     arrays = (status, verified, answer, accuracy, figures("time.total"))
-    return trade_of(case.deck_name, case.question.head(model.units), rungs, *arrays, least, shown)
+    return trade_of(case.deck_name, case.question.head(model.units), settings, *arrays, least, shown)
 
 
 # --- words ------------------------------------------------------------------------------------------------------------
@@ -146,7 +146,7 @@ LEGEND = (
 
 
 def _lines(
-    deck: Deck, trades: Sequence[CaseTrade], advices: Sequence[Advice], rungs: Sequence[Rung], results: SweepTable
+    deck: Deck, trades: Sequence[CaseTrade], advices: Sequence[Advice], settings: Sequence[Setting], results: SweepTable
 ) -> list[str]:
     """A table for each load case, what does not apply or failed, and the advice."""
     lines = heading_lines(deck)
@@ -154,13 +154,13 @@ def _lines(
         words = "no setting gave a result, so there is no reference"
         if trade.reference is not None:
             unsure = "" if trade.certain else ", which is NOT VERIFIED"
-            words = f"errors are relative to {trade.rungs[trade.reference].name}{unsure}, good to "
+            words = f"errors are relative to {trade.settings[trade.reference].name}{unsure}, good to "
             words += small(trade.resolution)
         lines += ["", *sentence(f"load case {trade.name}: {words}"), *_table(trade)]
     lines += ["", *sentence(LEGEND), ""]
     failed = zip(results["setting"].tolist(), results["reason"].tolist(), strict=True)
     why: dict[str, list[str]] = {}
-    for name, reason in (*((rung.name, rung.unfit) for rung in rungs), *failed):
+    for name, reason in (*((setting.name, setting.unfit) for setting in settings), *failed):
         if reason:
             why.setdefault(reason, []).append(name)
     for reason, names in why.items():
@@ -175,14 +175,14 @@ def _table(trade: CaseTrade) -> list[str]:
     head = ["setting", "time", trade.what, "error", *trade.shown, ""]
     rows = [
         [
-            ("* " if trade.front[n] else "  ") + rung.name,
+            ("* " if trade.front[n] else "  ") + setting.name,
             "-" if math.isnan(trade.seconds[n]) else f"{trade.seconds[n]:.3f}",
             number(trade.answer[n]),
             "ref." if n == trade.reference else _error(trade.distance[n], trade.resolution),
             *((small if name == "resid." else number)(figures[n]) for name, figures in trade.shown.items()),
             _mark(trade, n),
         ]
-        for n, rung in enumerate(trade.rungs)
+        for n, setting in enumerate(trade.settings)
         if trade.status[n]
     ]
     return table(head, rows) if rows else []
@@ -199,27 +199,32 @@ def _mark(trade: CaseTrade, n: int) -> str:
     words = [] if status == Status.SOLVED else [status_name(status)]
     words += ["stands only by self-stress"] if status == Status.SOLVED and math.isnan(trade.answer[n]) else []
     words += ["not verified"] if not trade.verified[n] and status in (Status.SOLVED, *VERDICTS) else []
-    words += ["other model"] if trade.rungs[n].model else []
+    words += ["other model"] if trade.settings[n].model else []
     return ", ".join(words)
 
 
 def _record(
-    trades: Sequence[CaseTrade], advices: Sequence[Advice], rungs: Sequence[Rung], wanted: float
+    trades: Sequence[CaseTrade], advices: Sequence[Advice], settings: Sequence[Setting], wanted: float
 ) -> dict[str, Any]:
     """Settings, references, fronts and advice; figures of each setting are in the table."""
     cases = [
         {
             "name": trade.name,
             "answer": trade.what,
-            "reference": None if trade.reference is None else trade.rungs[trade.reference].name,
+            "reference": None if trade.reference is None else trade.settings[trade.reference].name,
             "reference_verified": trade.certain,
             "resolution": trade.resolution,
-            "front": [rung.name for rung, best in zip(trade.rungs, trade.front, strict=True) if best],
-            "advice": one,
+            "front": [setting.name for setting, best in zip(trade.settings, trade.front, strict=True) if best],
+            "advice": _advice_json(one),
         }
         for trade, one in zip(trades, advices, strict=False)
     ]
-    return dict(as_json({"wanted_error": wanted, "settings": rungs, "cases": cases, "advice": advices[-1]}))
+    overall = _advice_json(advices[-1])
+    return dict(as_json({"wanted_error": wanted, "settings": settings, "cases": cases, "advice": overall}))
+
+
+def _advice_json(advice: Advice) -> dict[str, Any]:
+    return {"rung": advice.setting, "seconds": advice.seconds, "sentence": advice.sentence}
 
 
 # --- picture ----------------------------------------------------------------------------------------------------------
@@ -230,7 +235,7 @@ def draw_trade(title: str, trade: CaseTrade, advised: str, path: Path) -> None:
 
     Raises UsageError where the extra for pictures is not installed, FileError where the file cannot be written.
     """
-    rows = [n for n in np.flatnonzero(np.isfinite(trade.distance + trade.seconds)) if not trade.rungs[n].model]
+    rows = [n for n in np.flatnonzero(np.isfinite(trade.distance + trade.seconds)) if not trade.settings[n].model]
     mark = "" if trade.certain else "NOT VERIFIED: no run is verified that the others could be compared with"
     with open_diagrams(path, PictureOptions(), [title, f"load case {trade.name}", advised], mark) as sheet:
         if not rows:
@@ -248,5 +253,5 @@ def draw_trade(title: str, trade: CaseTrade, advised: str, path: Path) -> None:
             colour = VERMILION if trade.front[n] else BLUE if trade.sound[n] else WARNING
             look = {"marker": f"${number}$", "color": colour, "linestyle": "none"}
             axes.plot(times[n], errors[n], markersize=(9 if number < 10 else 14) * page.scale, **look)
-            handles.append(page.line(trade.rungs[n].name + ("" if trade.sound[n] else ", not verified"), **look))
+            handles.append(page.line(trade.settings[n].name + ("" if trade.sound[n] else ", not verified"), **look))
         sheet.add_legend(handles)

@@ -18,7 +18,7 @@ import numpy as np
 from mbla.arrays import BoolArray, FloatArray
 from mbla.results.listing.text import small
 from mbla.solution.solution import Status
-from mbla.sweeps.tradeoff.ladder import REFERENCE, Rung
+from mbla.sweeps.tradeoff.settings import REFERENCE, Setting
 
 NAN = math.nan
 ROUNDING = 1e-12
@@ -49,7 +49,7 @@ class CaseTrade:
 
     name: str
     what: str
-    rungs: tuple[Rung, ...]
+    settings: tuple[Setting, ...]
     status: np.ndarray[Any, np.dtype[Any]]
     verified: BoolArray
     answer: FloatArray
@@ -66,7 +66,7 @@ class CaseTrade:
 def trade_of(
     name: str,
     what: str,
-    rungs: Sequence[Rung],
+    settings: Sequence[Setting],
     status: np.ndarray[Any, np.dtype[Any]],
     verified: BoolArray,
     answer: FloatArray,
@@ -80,11 +80,11 @@ def trade_of(
     accuracy : (n,) what the answer is good to, relatively: the gap of the bounds, or the largest residual
     least    : size below which differences of answers are relative to this
     """
-    own = np.array([not rung.model for rung in rungs])
+    own = np.array([not setting.model for setting in settings])
     sharp = verified & own & (status != Status.APPROXIMATE.value)
-    reference = _reference(rungs, sharp, own & (status != "") & np.isfinite(answer), accuracy)
+    reference = _reference(settings, sharp, own & (status != "") & np.isfinite(answer), accuracy)
     certain = reference is not None and bool(sharp[reference])
-    resolution, distance, sound = NAN, np.full(len(rungs), NAN), np.zeros(len(rungs), dtype=bool)
+    resolution, distance, sound = NAN, np.full(len(settings), NAN), np.zeros(len(settings), dtype=bool)
     if reference is not None:
         resolution = max(ROUNDING, float(np.nan_to_num(accuracy[reference])))
         value = answer[reference]
@@ -94,13 +94,13 @@ def trade_of(
         sound = verified & own & np.isfinite(distance)
     front = sound & certain & ~_beaten(np.where(sound, seconds, np.inf), np.fmax(distance, resolution))
     figures = (status, verified, answer, seconds, reference, certain, resolution, distance, sound, front)
-    return CaseTrade(name, what, tuple(rungs), *figures, shown or {})
+    return CaseTrade(name, what, tuple(settings), *figures, shown or {})
 
 
-def _reference(rungs: Sequence[Rung], sharp: BoolArray, answered: BoolArray, accuracy: FloatArray) -> int | None:
+def _reference(settings: Sequence[Setting], sharp: BoolArray, answered: BoolArray, accuracy: FloatArray) -> int | None:
     """The preset if it is verified, else the sharpest that is, else the sharpest that has an answer at all."""
     for number in np.flatnonzero(sharp).tolist():
-        if rungs[number].name == REFERENCE:
+        if settings[number].name == REFERENCE:
             return int(number)
     found = np.flatnonzero(sharp if sharp.any() else answered)
     return int(found[np.nan_to_num(accuracy[found], nan=np.inf).argmin()]) if len(found) else None
@@ -117,7 +117,7 @@ def _beaten(seconds: FloatArray, errors: FloatArray) -> BoolArray:
 class Advice:
     """The setting that is advised, None where none can be; its seconds over all load cases, and the sentence."""
 
-    rung: Rung | None
+    setting: Setting | None
     seconds: float
     sentence: str
 
@@ -134,12 +134,12 @@ def advice(trades: Sequence[CaseTrade], wanted: float) -> Advice:
     seconds = np.where(errors <= wanted, np.sum([trade.seconds for trade in trades], axis=0), np.inf)
     fastest = int(seconds.argmin())  # the reference is always among those that are near enough
     enough = max((1.0 + SAME_TIME) * seconds[fastest], seconds[fastest] + SAME_SECONDS * len(trades))
-    names = [rung.name for rung in trades[0].rungs]
+    names = [setting.name for setting in trades[0].settings]
     near = [names.index(name) for name in PRESETS if name in names and seconds[names.index(name)] <= enough]
     chosen = (near or [fastest])[0]
-    rung, took = trades[0].rungs[chosen], float(seconds[chosen])
-    words = " without ".join([rung.name, *(f"analysis.{name}" for name in rung.without)])
+    setting, took = trades[0].settings[chosen], float(seconds[chosen])
+    words = " without ".join([setting.name, *(f"analysis.{name}" for name in setting.without)])
     reached = small(max(float(errors[chosen]), coarse))
     return Advice(
-        rung, took, f"For an error of {wanted:g} take {words} ({took:.3g} s, within {reached} of the reference)."
+        setting, took, f"For an error of {wanted:g} take {words} ({took:.3g} s, within {reached} of the reference)."
     )

@@ -82,5 +82,5 @@ def is_refused(folder: Path, number: int) -> bool:
             assert len(line.removeprefix(str(folder))) < LONGEST, line
             assert "\n" not in line
         return True
-    assert len(base.key_of(design.points[0].settings)) == 64
+    assert len(base.keys.of(design.points[0].settings)) == 64
     return False

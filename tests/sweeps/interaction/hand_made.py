@@ -18,10 +18,10 @@ from mbla.sweeps.design.directions import horizontal
 from mbla.sweeps.engine.child import PointRunner
 from mbla.sweeps.interaction.domain import Domain, Points, domain_of, points_of
 from mbla.sweeps.interaction.question import DIRECTION, Question, question_of
-from mbla.sweeps.interaction.study import conclusion_of, prepared_diagram
+from mbla.sweeps.interaction.study import prepared_diagram, study_result_of
 from mbla.sweeps.plan import Outcome
 from mbla.sweeps.tables.sweep_table import SweepTable, sweep_table
-from mbla.sweeps.tables.write_tables import Conclusion
+from mbla.sweeps.tables.write_tables import StudyResult
 from tests.line import HEAD
 
 BLOCK = (
@@ -70,14 +70,14 @@ class Diagram:
         return found
 
     @property
-    def conclusion(self) -> Conclusion:
+    def study(self) -> StudyResult:
         """What is told of it."""
-        return conclusion_of(self.deck, self.question, self.table)
+        return study_result_of(self.deck, self.question, self.table)
 
     @property
     def words(self) -> str:
         """All that the terminal shows."""
-        return " ".join(" ".join(self.conclusion.lines).split())
+        return " ".join(" ".join(self.study.lines).split())
 
 
 def written(folder: Path) -> Path:

@@ -26,7 +26,7 @@ def test_a_block_slides_alike_in_all_directions(tmp_path: Path, flow_rule: str) 
     assert (found.domain.inner.area, found.domain.outer.area) == pytest.approx(area_of_circle(8, 0.3), rel=1e-5)
     assert found.domain.gap == pytest.approx(1 - math.cos(math.pi / 8) ** 2, rel=1e-4)
     assert found.domain.everywhere == pytest.approx(0.3 * math.cos(math.pi / 8), rel=1e-5)
-    assert found.conclusion.exit_code == 0
+    assert found.study.exit_code == 0
 
 
 def test_a_block_turns_over_its_edges_and_corners(tmp_path: Path) -> None:
@@ -36,7 +36,7 @@ def test_a_block_turns_over_its_edges_and_corners(tmp_path: Path) -> None:
         assert factor == pytest.approx(min(b / (2 * s) for b, s in zip((1.0, 1.4), way, strict=True) if s), rel=EXACT)
     assert np.abs(corners_of(found.domain.outer)).max(axis=0) == pytest.approx([0.5, 0.7], rel=1e-5)
     assert found.domain.outer.area == pytest.approx(1.0 * 1.4, rel=1e-5)
-    assert found.conclusion.record["interaction"]["least"]["angles"] == [0.0, 180.0]
+    assert found.study.record["interaction"]["least"]["angles"] == [0.0, 180.0]
 
 
 def test_the_interaction_polygon_of_two_loads(tmp_path: Path) -> None:
@@ -57,7 +57,7 @@ def test_a_load_that_never_brings_collapse_leaves_the_domain_open(tmp_path: Path
     assert found.domain.cut_off
     assert math.isnan(found.domain.gap)
     assert "it is unbounded at 90 degrees, so that it has no area of which a share could be left open" in found.words
-    assert found.conclusion.exit_code == 0
+    assert found.study.exit_code == 0
 
 
 def test_a_point_that_cannot_be_asked_fails_alone(tmp_path: Path) -> None:
@@ -67,4 +67,4 @@ def test_a_point_that_cannot_be_asked_fails_alone(tmp_path: Path) -> None:
     assert found.table["state"].tolist() == ["done", "failed", "done"]
     assert "at 135 degrees: " in found.words
     assert "cancel each other" in found.words
-    assert found.conclusion.exit_code == 3
+    assert found.study.exit_code == 3

@@ -12,7 +12,7 @@ from mbla.sweeps.interaction.question import DIRECTION, TWO_LOADS
 from mbla.sweeps.interaction.study import ROOM
 from tests.sweeps.drawn import names_in_legend, places
 from tests.sweeps.interaction.hand_made import both_bounds, made
-from tests.sweeps.interaction.test_conclusions import FREE
+from tests.sweeps.interaction.test_study_result import FREE
 
 pytest.importorskip("matplotlib")
 SAFE = "safe by static bounds (associative flow)"
@@ -22,7 +22,7 @@ FACTOR = "load factor, associative flow"
 
 def drawn(folder: Path, figures: list[Any], *diagram: Any) -> Any:
     """The figure of a diagram."""
-    made(folder, *diagram).conclusion.pictures["interact"](folder / "diagram.png")
+    made(folder, *diagram).study.pictures["interact"](folder / "diagram.png")
     return figures[-1]
 
 

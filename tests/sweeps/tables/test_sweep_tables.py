@@ -20,7 +20,7 @@ from mbla.results.record.scene import Values
 from mbla.sweeps.fragility import fragility_csv, fragility_of
 from mbla.sweeps.tables.sweep_json import SWEEP_RECORD, read_sweep_table, sweep_json
 from mbla.sweeps.tables.sweep_table import SweepTable, sweep_table
-from mbla.sweeps.tables.write_tables import FRAGILITY, Conclusion, TableFiles, refuse_tables, write_tables
+from mbla.sweeps.tables.write_tables import FRAGILITY, StudyResult, TableFiles, refuse_tables, write_tables
 from tests.sweeps.tables.synthetic import (
     ABOUT,
     CREATED,
@@ -40,7 +40,7 @@ ALL = TableFiles(parquet=True, hdf5=True)
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("sweep") / "wall.out"
-    write_tables(folder, record(), table(), ALL, Conclusion())
+    write_tables(folder, record(), table(), ALL, StudyResult())
     return folder
 
 
@@ -142,14 +142,14 @@ def test_files_appear_together_and_nothing_is_overwritten_unasked(folder: Path, 
     (tmp_path / "sweep.h5").write_bytes(b"mine")
     with pytest.raises(FileError, match=r"sweep\.h5: exists already"):
         refuse_tables(tmp_path, ALL, replace=False)
-    write_tables(tmp_path, record(), table(), ALL, Conclusion())
+    write_tables(tmp_path, record(), table(), ALL, StudyResult())
     assert same_tables(read_sweep_table(tmp_path), table())
 
 
 def test_probabilities_stand_in_the_record_and_in_a_file_of_their_own(tmp_path: Path) -> None:
     found = fragility_of(table(), "load_factor", (0.2,), 0.95)
-    conclusion = Conclusion(texts={FRAGILITY: fragility_csv(found, table())})
-    told, _ = write_tables(tmp_path, record(fragility=found), table(), TableFiles(), conclusion)
+    study = StudyResult(texts={FRAGILITY: fragility_csv(found, table())})
+    told, _ = write_tables(tmp_path, record(fragility=found), table(), TableFiles(), study)
     assert [each["at"] for each in told["fragility"]] == [{"mu": 0.5}, {"mu": 0.7}]
     assert "sweep_fragility.csv" in told["files"]
     frame = pandas.read_csv(tmp_path / "sweep_fragility.csv")
@@ -214,7 +214,7 @@ def _without_state(folder: Path) -> None:
 def test_a_file_that_is_no_table_is_refused_in_one_line(
     tmp_path: Path, change: Callable[[Path], None], words: str
 ) -> None:
-    write_tables(tmp_path, record(), table(), TableFiles(), Conclusion())
+    write_tables(tmp_path, record(), table(), TableFiles(), StudyResult())
     read_sweep_table(tmp_path)
     change(tmp_path)
     with pytest.raises(FileError, match=words) as caught:

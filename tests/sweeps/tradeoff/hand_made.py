@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from mbla.sweeps.tradeoff import trade
-from mbla.sweeps.tradeoff.ladder import Rung
+from mbla.sweeps.tradeoff.settings import Setting
 from mbla.sweeps.tradeoff.trade import CaseTrade
 
 
@@ -16,7 +16,7 @@ from mbla.sweeps.tradeoff.trade import CaseTrade
 class Row:
     """A solved and verified load factor."""
 
-    rung: Rung
+    setting: Setting
     answer: float = 0.5
     seconds: float = 1.0
     accuracy: float = 1e-9
@@ -27,10 +27,10 @@ class Row:
 def row(name: str, answer: float, seconds: float, model: str = "", **changes: Any) -> Row:
     """One that took so many seconds."""
     key, _, value = name.partition(": ")
-    return replace(Row(Rung(name, {f"analysis.{key}": value}, model=model), answer, seconds), **changes)
+    return replace(Row(Setting(name, {f"analysis.{key}": value}, model=model), answer, seconds), **changes)
 
 
-def ladder() -> list[Row]:
+def rows_of_a_study() -> list[Row]:
     """A preset of each kind, a fast one that is not verified, a dominated one and another model, faster and nearer."""
     return [
         row("accuracy: standard", 0.50001, 0.8),
@@ -48,5 +48,5 @@ def trade_of(rows: list[Row], name: str = "push", least: float = 0.0) -> CaseTra
         np.array([getattr(one, key) for one in rows]) for key in ("answer", "accuracy", "seconds", "verified")
     )
     status = np.array([one.status for one in rows], dtype=object)
-    rungs = [one.rung for one in rows]
-    return trade.trade_of(name, "load factor", rungs, status, verified, answer, accuracy, seconds, least)
+    settings = [one.setting for one in rows]
+    return trade.trade_of(name, "load factor", settings, status, verified, answer, accuracy, seconds, least)

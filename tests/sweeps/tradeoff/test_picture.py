@@ -11,13 +11,13 @@ import pytest
 from mbla.results.pictures.page import BLUE, VERMILION, WARNING
 from mbla.sweeps.tradeoff.study import draw_trade
 from tests.sweeps.drawn import names_in_legend, places
-from tests.sweeps.tradeoff.hand_made import ladder, trade_of
+from tests.sweeps.tradeoff.hand_made import rows_of_a_study, trade_of
 
 pytest.importorskip("matplotlib")
 
 
 def test_points_are_time_and_distance_and_the_front_is_a_line(tmp_path: Path, figures: list[Any]) -> None:
-    draw_trade("A block", trade_of(ladder()), "Take what you like.", tmp_path / "trade.png")
+    draw_trade("A block", trade_of(rows_of_a_study()), "Take what you like.", tmp_path / "trade.png")
     (axes,) = figures[-1].axes
     marks = [line for line in axes.lines if str(line.get_marker()).startswith("$")]
     expected = [(0.8, 2e-5), (2.0, 1e-9), (0.2, 1e-3), (1.5, 4e-5), (0.1, 1e-9)]

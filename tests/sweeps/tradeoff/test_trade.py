@@ -7,17 +7,17 @@ from dataclasses import replace
 
 import pytest
 
-from mbla.sweeps.tradeoff.ladder import Rung
+from mbla.sweeps.tradeoff.settings import Setting
 from mbla.sweeps.tradeoff.trade import Advice, CaseTrade, advice
-from tests.sweeps.tradeoff.hand_made import Row, ladder, row, trade_of
+from tests.sweeps.tradeoff.hand_made import Row, row, rows_of_a_study, trade_of
 
 
 def rung_of(one: Advice) -> str:
-    return "" if one.rung is None else one.rung.name
+    return "" if one.setting is None else one.setting.name
 
 
 def names_on_front(trade: CaseTrade) -> set[str]:
-    return {rung.name for rung, best in zip(trade.rungs, trade.front, strict=True) if best}
+    return {setting.name for setting, best in zip(trade.settings, trade.front, strict=True) if best}
 
 
 def test_front_of_points() -> None:
@@ -29,9 +29,9 @@ def test_front_of_points() -> None:
 
 
 def test_distances_and_front_of_the_ladder() -> None:
-    trade = trade_of(ladder())
+    trade = trade_of(rows_of_a_study())
     assert trade.reference is not None
-    assert trade.rungs[trade.reference].name == "accuracy: reference"
+    assert trade.settings[trade.reference].name == "accuracy: reference"
     assert trade.certain
     assert trade.resolution == 1e-9
     assert trade.distance.tolist() == pytest.approx([2e-5, 0.0, 1e-3, 4e-5, 0.0, 0.0], abs=1e-12)
@@ -45,30 +45,30 @@ def test_distances_below_the_accuracy_of_the_reference_are_the_same() -> None:
 
 
 @pytest.mark.parametrize(
-    ("wanted", "rung"), [(1e-2, "accuracy: draft"), (1e-4, "accuracy: standard"), (1e-6, "accuracy: reference")]
+    ("wanted", "setting"), [(1e-2, "accuracy: draft"), (1e-4, "accuracy: standard"), (1e-6, "accuracy: reference")]
 )
-def test_the_fastest_that_is_near_enough_is_advised(wanted: float, rung: str) -> None:
-    chosen = advice([trade_of(ladder())], wanted)
-    assert rung_of(chosen) == rung
-    assert chosen.rung is not None
-    assert chosen.rung.settings == {"analysis.accuracy": rung.removeprefix("accuracy: ")}
+def test_the_fastest_that_is_near_enough_is_advised(wanted: float, setting: str) -> None:
+    chosen = advice([trade_of(rows_of_a_study())], wanted)
+    assert rung_of(chosen) == setting
+    assert chosen.setting is not None
+    assert chosen.setting.settings == {"analysis.accuracy": setting.removeprefix("accuracy: ")}
 
 
 def test_words_of_the_advice() -> None:
-    words = advice([trade_of(ladder())], 1e-4).sentence
+    words = advice([trade_of(rows_of_a_study())], 1e-4).sentence
     assert words == "For an error of 0.0001 take accuracy: standard (0.8 s, within 2.0e-05 of the reference)."
 
 
 def test_no_finer_advice_than_the_reference_is_good_for() -> None:
-    chosen = advice([trade_of(ladder())], 1e-10)
-    assert chosen.rung is None
+    chosen = advice([trade_of(rows_of_a_study())], 1e-10)
+    assert chosen.setting is None
     assert "the reference itself is good to 1.0e-09" in chosen.sentence
 
 
 def test_a_preset_is_preferred_within_the_noise_of_time() -> None:
-    runs = [*ladder(), row("solver: x", 0.50001, 0.76)]
+    runs = [*rows_of_a_study(), row("solver: x", 0.50001, 0.76)]
     assert rung_of(advice([trade_of(runs)], 1e-4)) == "accuracy: standard"
-    runs = [*ladder(), row("solver: x", 0.50001, 0.5)]
+    runs = [*rows_of_a_study(), row("solver: x", 0.50001, 0.5)]
     assert rung_of(advice([trade_of(runs)], 1e-4)) == "solver: x"
 
 
@@ -79,12 +79,12 @@ def test_hundredths_of_a_second_are_no_reason_to_leave_the_standard() -> None:
 
 
 def test_the_sharpest_verified_takes_the_place_of_a_reference_that_is_not() -> None:
-    runs = ladder()
+    runs = rows_of_a_study()
     runs[1] = row("accuracy: reference", 0.5, 2.0, status="approximate", verified=False)
     runs[3] = row("solver: mbla", 0.50002, 1.5, accuracy=1e-10)
     trade = trade_of(runs)
     assert trade.reference is not None
-    assert trade.rungs[trade.reference].name == "solver: mbla"
+    assert trade.settings[trade.reference].name == "solver: mbla"
     assert trade.certain
 
 
@@ -113,9 +113,9 @@ def test_a_draft_as_sharp_as_it_asks_for_is_advised_but_is_no_reference() -> Non
 
 
 def test_nothing_to_compare_with() -> None:
-    trade = trade_of([Row(Rung("accuracy: reference"), math.nan, math.nan, math.nan, "", False)])
+    trade = trade_of([Row(Setting("accuracy: reference"), math.nan, math.nan, math.nan, "", False)])
     assert trade.reference is None
-    assert advice([trade], 0.1).rung is None
+    assert advice([trade], 0.1).setting is None
 
 
 NONE = row("accuracy: reference", math.nan, 1.0, status="no_equilibrium", accuracy=math.nan)
@@ -124,7 +124,7 @@ NONE = row("accuracy: reference", math.nan, 1.0, status="no_equilibrium", accura
 def test_verdicts_without_a_figure() -> None:
     others = [replace(NONE, verified=False), row("solver: mbla", 0.5, 1.0)]
     assert trade_of([NONE, *others]).distance.tolist() == pytest.approx([0.0, math.nan, math.nan], nan_ok=True)
-    runs = [NONE, replace(NONE, rung=Rung("accuracy: draft"), seconds=0.1)]
+    runs = [NONE, replace(NONE, setting=Setting("accuracy: draft"), seconds=0.1)]
     assert names_on_front(trade_of(runs)) == {"accuracy: draft"}
     assert rung_of(advice([trade_of(runs)], 1e-4)) == "accuracy: draft"
 
@@ -135,9 +135,9 @@ def test_a_load_factor_of_nothing_is_compared_with_the_least_that_counts() -> No
 
 
 def test_advice_for_several_load_cases_must_hold_in_each() -> None:
-    other = [replace(each, answer=2 * each.answer) for each in ladder()]
+    other = [replace(each, answer=2 * each.answer) for each in rows_of_a_study()]
     other[0] = row("accuracy: standard", 1.1, 0.8)
-    trades = [trade_of(ladder()), trade_of(other, "lift")]
+    trades = [trade_of(rows_of_a_study()), trade_of(other, "lift")]
     assert rung_of(advice(trades[:1], 1e-4)) == "accuracy: standard"
     both = advice(trades, 1e-4)
     assert rung_of(both) == "solver: mbla"

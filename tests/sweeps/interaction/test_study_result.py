@@ -41,7 +41,7 @@ def test_a_safe_point_beyond_a_half_plane_of_another_is_an_error_of_verification
     assert found.domain.crossed == pytest.approx(0.01 / 1.01, rel=0.02)
     assert found.domain.everywhere is None
     assert "ERROR OF VERIFICATION: the safe domain of associative flow is convex" in found.words
-    assert found.conclusion.exit_code == 4
+    assert found.study.exit_code == 4
 
 
 def test_the_origin_is_safe_only_where_the_structure_stands(tmp_path: Path) -> None:
@@ -54,7 +54,7 @@ def test_the_origin_is_safe_only_where_the_structure_stands(tmp_path: Path) -> N
 def test_without_bounds_there_is_no_domain(tmp_path: Path) -> None:
     found = made(tmp_path, DIRECTION, [0.5] * 4, dict.fromkeys(range(4), dict.fromkeys(FIGURES[2:])))
     assert domain_of(found.points, found.question) is None
-    assert found.conclusion.record["interaction"]["domain"] is None
+    assert found.study.record["interaction"]["domain"] is None
 
 
 def test_points_that_do_not_go_around_leave_sides_without_a_mechanism(tmp_path: Path) -> None:
@@ -78,10 +78,10 @@ def test_points_that_do_not_go_around_leave_sides_without_a_mechanism(tmp_path: 
 def test_what_is_not_plain_is_told(tmp_path: Path, changes: dict[int, Any], mark: str, status: int) -> None:
     """And the gravest point ends the study."""
     found = made(tmp_path, DIRECTION, [0.5] * 4, changes)
-    (row,) = [line for line in found.conclusion.lines if line.split()[:1] == ["90"]]
+    (row,) = [line for line in found.study.lines if line.split()[:1] == ["90"]]
     assert row.endswith(f"  {mark}")
     assert f": {changes[1]['reason']}" in found.words
-    assert found.conclusion.exit_code == status
+    assert found.study.exit_code == status
 
 
 def test_extremes_name_their_angles(tmp_path: Path) -> None:
@@ -91,6 +91,6 @@ def test_extremes_name_their_angles(tmp_path: Path) -> None:
 
 
 def test_every_key_of_the_record_is_described(tmp_path: Path) -> None:
-    record = made(tmp_path, DIRECTION, [0.5] * 4).conclusion.record["interaction"]
+    record = made(tmp_path, DIRECTION, [0.5] * 4).study.record["interaction"]
     described = {key.path.removeprefix("interaction.") for key in INTERACT_RECORD}
     assert described == set(record) | {f"domain.{key}" for key in record["domain"]}

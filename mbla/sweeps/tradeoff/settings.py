@@ -27,7 +27,7 @@ from mbla.sweeps.tables.sweep_table import as_text
 
 REFERENCE = "accuracy: reference"
 """name of the setting that the others are compared with"""
-LADDER: tuple[tuple[str, Mapping[str, Plain]], ...] = (
+KNOWN: tuple[tuple[str, Mapping[str, Plain]], ...] = (
     ("the deck's own settings", {}),
     *((f"tolerance: {value}", {"analysis.tolerance": float(value)}) for value in ("1e-4", "1e-6", "1e-8", "1e-10")),
     *((f"solver: {name}", {"analysis.solver": name}) for name in ("mbla", "clarabel")),
@@ -45,7 +45,7 @@ MOST = 200
 
 
 @dataclass(frozen=True)
-class Rung:
+class Setting:
     """A setting under a name.
 
     name     : as a deck says it, ``accuracy: draft``
@@ -62,37 +62,37 @@ class Rung:
     model: str = ""
 
 
-def ladder_of(deck: Deck, fixed: Sequence[str], named: Sequence[Rung]) -> list[Rung]:
+def settings_of(deck: Deck, fixed: Sequence[str], named: Sequence[Setting]) -> list[Setting]:
     """The reference and what the user names, or every setting that mbla knows of; those that do not apply say why.
 
     fixed : overrides with which the deck was read
 
     Raises UsageError where two have one name, and where nothing that was named applies.
     """
-    rungs = [_preset(deck, fixed, "reference"), *(rung for rung in named if rung.name != REFERENCE)]
-    if not named:  # the reference early, so that a time limit that ends the ladder leaves something to compare
-        rungs = [_preset(deck, fixed, "standard"), *rungs, _preset(deck, fixed, "draft")]
-        rungs += [Rung(name, settings) for name, settings in LADDER]
-    names = [rung.name for rung in rungs]
+    settings = [_preset(deck, fixed, "reference"), *(setting for setting in named if setting.name != REFERENCE)]
+    if not named:  # the reference early, so that a time limit that ends the study leaves something to compare
+        settings = [_preset(deck, fixed, "standard"), *settings, _preset(deck, fixed, "draft")]
+        settings += [Setting(name, values) for name, values in KNOWN]
+    names = [setting.name for setting in settings]
     if twice := [name for name in names if names.count(name) > 1]:
         raise UsageError("tradeoff-option", f"{twice[0]}: two settings of that name")
     seen: dict[str, str] = {}
-    fitted = [_fitted(deck, fixed, rung, seen) for rung in rungs]
-    if len(fitted) > 1 and all(rung.unfit for rung in fitted[1:]):
-        why = "; ".join(f"{rung.name}: {rung.unfit}" for rung in fitted[1:])
+    fitted = [_fitted(deck, fixed, setting, seen) for setting in settings]
+    if len(fitted) > 1 and all(setting.unfit for setting in fitted[1:]):
+        why = "; ".join(f"{setting.name}: {setting.unfit}" for setting in fitted[1:])
         raise UsageError("tradeoff-option", f"no setting that was asked for applies to the deck: {why}")
     return fitted
 
 
-def _preset(deck: Deck, fixed: Sequence[str], word: str) -> Rung:
+def _preset(deck: Deck, fixed: Sequence[str], word: str) -> Setting:
     """One word, free of the knobs that the deck sets by itself."""
     own: dict[str, Plain] = {"accuracy": word}
     without = given_knobs(deck, fixed)
     if not without:
-        return Rung(f"accuracy: {word}", {f"analysis.{key}": value for key, value in own.items()})
+        return Setting(f"accuracy: {word}", {f"analysis.{key}": value for key, value in own.items()})
     section = effective_tree(deck.path, fixed).data["analysis"]
     kept: dict[str, Plain] = {key: value for key, value in section.items() if key not in without}
-    return Rung(f"accuracy: {word}", {"analysis": kept | own}, without)
+    return Setting(f"accuracy: {word}", {"analysis": kept | own}, without)
 
 
 def given_knobs(deck: Deck, fixed: Sequence[str]) -> tuple[str, ...]:
@@ -106,15 +106,15 @@ def given_knobs(deck: Deck, fixed: Sequence[str]) -> tuple[str, ...]:
     )
 
 
-def _fitted(deck: Deck, fixed: Sequence[str], rung: Rung, seen: dict[str, str]) -> Rung:
+def _fitted(deck: Deck, fixed: Sequence[str], setting: Setting, seen: dict[str, str]) -> Setting:
     """The setting with what is wrong with it on this deck: refused, the same as an earlier one, another model."""
     try:
-        content = read_deck(deck.path, (*fixed, *override_texts(rung.settings))).content
+        content = read_deck(deck.path, (*fixed, *override_texts(setting.settings))).content
     except DeckError as error:
-        return replace(rung, unfit="; ".join(fault.message for fault in error.faults))
-    same = seen.setdefault(content.model_dump_json(exclude={"output", "expected"}), rung.name)
-    unfit = "" if same == rung.name else f"the same as {same}"
-    return replace(rung, unfit=unfit, model=other_model(deck.content, content))
+        return replace(setting, unfit="; ".join(fault.message for fault in error.faults))
+    same = seen.setdefault(content.model_dump_json(exclude={"output", "expected"}), setting.name)
+    unfit = "" if same == setting.name else f"the same as {same}"
+    return replace(setting, unfit=unfit, model=other_model(deck.content, content))
 
 
 def other_model(deck: DeckContent, changed: DeckContent) -> str:
@@ -129,7 +129,7 @@ def other_model(deck: DeckContent, changed: DeckContent) -> str:
 # --- settings of the command line -------------------------------------------------------------------------------------
 
 
-def named_rungs(knobs: Sequence[str], settings: Sequence[str]) -> list[Rung]:
+def named_settings(knobs: Sequence[str], settings: Sequence[str]) -> list[Setting]:
     """Settings of the two options, none if neither is given; raises UsageError for an invalid text."""
     choices = [_choice(text) for text in knobs]
     count = len(settings) + (prod(map(len, choices)) if knobs else 0)
@@ -148,12 +148,12 @@ def _choice(text: str) -> list[tuple[str, Plain]]:
     return [(key.strip(), value) for value in values]
 
 
-def _combination(chosen: Sequence[tuple[str, Plain]]) -> Rung:
+def _combination(chosen: Sequence[tuple[str, Plain]]) -> Setting:
     shown = [f"{key.removeprefix('analysis.')}: {as_text(value)}" for key, value in chosen]
-    return Rung(", ".join(shown).replace("e-0", "e-"), dict(chosen))  # 1e-6, as people write it
+    return Setting(", ".join(shown).replace("e-0", "e-"), dict(chosen))  # 1e-6, as people write it
 
 
-def _named(text: str) -> Rung:
+def _named(text: str) -> Setting:
     name, _, rest = text.partition(":")
     texts = rest.split()
     if not name.strip() or not texts or not all("=" in each for each in texts):
@@ -161,4 +161,4 @@ def _named(text: str) -> Rung:
             "tradeoff-option",
             f"--setting {text}: must be 'NAME: KEY.PATH=VALUE KEY.PATH=VALUE ...', values without spaces",
         )
-    return Rung(" ".join(name.split()), dict(_choice(each)[0] for each in texts))
+    return Setting(" ".join(name.split()), dict(_choice(each)[0] for each in texts))
