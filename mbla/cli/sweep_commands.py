@@ -62,11 +62,6 @@ def add_sweep(commands: Any) -> None:
         metavar="F",
         help="the same, by the file in which the scheduler wrote its address",
     )
-    command.add_argument("--tls-ca-file", type=Path, metavar="F", help="for tls://: certificate of the authority")
-    command.add_argument(
-        "--tls-cert", dest="tls_client_cert", type=Path, metavar="F", help="for tls://: certificate of this program"
-    )
-    command.add_argument("--tls-key", dest="tls_client_key", type=Path, metavar="F", help="for tls://: its private key")
     command.add_argument(
         "--shard",
         type=shard,
@@ -135,7 +130,7 @@ def print_finished(options: argparse.Namespace, finished: Finished, lines: Seque
 def _sweep_options(options: argparse.Namespace) -> SweepOptions:
     with loading():
         from mbla.sweeps.command import SweepOptions
-        from mbla.sweeps.engine.engine import TLS, EngineOptions
+        from mbla.sweeps.engine.engine import EngineOptions
 
     return SweepOptions(
         folder=options.output,
@@ -143,7 +138,6 @@ def _sweep_options(options: argparse.Namespace) -> SweepOptions:
             workers=options.jobs,
             scheduler=options.scheduler or "",
             scheduler_file=options.scheduler_file,
-            tls={key: path for key in TLS if (path := vars(options)[key]) is not None},
         ),
         shard=options.shard,
         resume=options.resume or options.retry_failed,

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from mbla.cli import main
-from mbla.sweeps.engine import engine, on_worker
+from mbla.sweeps.engine import processes
 from mbla.sweeps.engine.supervised import SupervisedRunner
 from tests.line import BLOCK
 from tests.sweeps import faulty_child
@@ -50,8 +50,7 @@ def test_limits(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, workers: str) -
     command = ["sweep", str(path), "-q", "-j", workers]
     with monkeypatch.context() as patch:
         faulty = partial(SupervisedRunner, command=(sys.executable, "-P", str(Path(faulty_child.__file__))))
-        for module in (engine, on_worker):
-            patch.setattr(module, "SupervisedRunner", faulty)
+        patch.setattr(processes, "SupervisedRunner", faulty)
         assert main(command) == 8
         check_rows(folder)
         begun = sorted(int(line) for line in log.read_text(encoding="ascii").split())

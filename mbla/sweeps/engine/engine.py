@@ -1,27 +1,28 @@
-"""Where the points of a sweep are solved: processes of this machine, or the workers of a Dask scheduler."""
+"""Where the points of a sweep are solved: threads of this machine, or of the workers of a Dask scheduler.
+
+Either is an executor of ``concurrent.futures``; each of its threads has a process of its own for the points.
+"""
 
 from __future__ import annotations
 
 import importlib.util
-import queue
-import threading
-import time
-from collections.abc import Generator, Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Callable, Generator, Iterator, Sequence
+from concurrent.futures import FIRST_COMPLETED, Executor, Future, ThreadPoolExecutor, wait
+from contextlib import AbstractContextManager, contextmanager
+from dataclasses import dataclass
+from itertools import islice
 from pathlib import Path
 
-from mbla.errors import LimitError, UsageError
-from mbla.sweeps.engine.supervised import StoppedError, SupervisedRunner
+from mbla.errors import UsageError
+from mbla.sweeps.engine.processes import NOT_BEGUN as NOT_BEGUN
+from mbla.sweeps.engine.processes import Processes
 from mbla.sweeps.plan import FAILED, Outcome, Plan, Task
 
-NOT_BEGUN = "not run: the time limit was over"
-"""reason of a point that was not begun"""
 PATIENCE = 60.0
 """seconds to wait for a scheduler and its first worker"""
-
-
-TLS = {"tls_ca_file": "--tls-ca-file", "tls_client_cert": "--tls-cert", "tls_client_key": "--tls-key"}
-"""certificate of the authority, certificate and private key of this client: as Dask calls them, and the options"""
+WINDOW = 2
+"""points under way for each thread: one is solved, the next waits with it"""
+GIVEN_UP = "its worker was ended, as was that of each try before; given up"
 
 
 @dataclass(frozen=True)
@@ -31,8 +32,7 @@ class EngineOptions:
     workers        : processes on this machine
     scheduler      : address of a Dask scheduler, ``tcp://host:port`` or ``tls://host:port``; empty for none
     scheduler_file : file in which a scheduler wrote its address
-    tls            : files by their keys in ``TLS``; those of Dask's own configuration where there are none
-    patience       : seconds to wait for the scheduler and its first worker, and for another where all are gone
+    patience       : seconds to wait for the scheduler and its first worker
     until          : time.monotonic() at which the points under way are stopped and no further one is begun
     threads        : of each process of this machine
     """
@@ -40,7 +40,6 @@ class EngineOptions:
     workers: int = 1
     scheduler: str = ""
     scheduler_file: Path | None = None
-    tls: Mapping[str, Path] = field(default_factory=dict)
     patience: float = PATIENCE
     until: float | None = None
     threads: int = 1
@@ -51,11 +50,26 @@ class EngineOptions:
         return bool(self.scheduler) or self.scheduler_file is not None
 
 
+@dataclass(frozen=True)
+class Pool:
+    """What runs points.
+
+    run      : solves a point of a plan in a thread of the executor
+    threads  : of the executor; those of a cluster may come and go
+    given_up : error of a point whose worker was ended too often
+    """
+
+    executor: Executor
+    run: Callable[[Plan, Task], Outcome]
+    threads: Callable[[], int]
+    given_up: tuple[type[Exception], ...] = ()
+
+
 MISSING = "a cluster needs an extra that is not installed: pip install 'mbla[dask]'"
 
 
 def check_options(options: EngineOptions) -> None:
-    """Raises UsageError for what does not go together or is not there, each in a line, and for a missing extra."""
+    """Raises UsageError for what does not go together, each in a line, and for a missing extra."""
     wrong = []
     if options.workers < 1:
         wrong.append(f"-j {options.workers}: at least 1")
@@ -65,12 +79,6 @@ def check_options(options: EngineOptions) -> None:
         wrong.append("--scheduler and --scheduler-file: one of them says where the scheduler is")
     if options.scheduler and not options.scheduler.startswith(("tcp://", "tls://")):
         wrong.append(f"--scheduler {options.scheduler}: an address is tcp://HOST:PORT or tls://HOST:PORT")
-    files = {TLS[key]: path for key, path in options.tls.items()}
-    if files and (options.scheduler.startswith("tcp://") or not options.cluster):
-        wrong.append(f"{', '.join(files)}: only for a scheduler at a tls:// address")
-    if ("--tls-cert" in files) != ("--tls-key" in files):
-        wrong.append("--tls-cert and --tls-key belong together")
-    wrong += [f"{option} {path}: there is no such file" for option, path in files.items() if not path.is_file()]
     if wrong:
         raise UsageError("sweep-option", "\n".join(wrong))
     if options.cluster and importlib.util.find_spec("distributed") is None:
@@ -80,7 +88,7 @@ def check_options(options: EngineOptions) -> None:
 def outcomes_of(options: EngineOptions, plan: Plan, tasks: Sequence[Task]) -> Generator[Outcome, None, None]:
     """Outcomes in the order in which they are done; one for every task, also where its worker died.
 
-    Closing the iterator stops what is under way.
+    Tasks are begun in their order. Closing the iterator stops what is under way.
 
     Raises
     ------
@@ -89,46 +97,37 @@ def outcomes_of(options: EngineOptions, plan: Plan, tasks: Sequence[Task]) -> Ge
     FileError
         the scheduler is gone
     """
-    if options.cluster:
-        from mbla.sweeps.engine.cluster import outcomes_of_cluster
+    left, running = iter(tasks), dict[Future[Outcome], Task]()
+    with _pool_of(options, plan) as pool:
+        while True:
+            for task in islice(left, max(WINDOW * max(pool.threads(), 1) - len(running), 0)):
+                running[pool.executor.submit(pool.run, plan, task)] = task
+            if not running:
+                return
+            for future in wait(running, return_when=FIRST_COMPLETED).done:
+                task = running.pop(future)
+                try:
+                    outcome = future.result()
+                except pool.given_up:
+                    outcome = Outcome(task.key, FAILED, 1, GIVEN_UP, {}, 1, 0.0)
+                yield outcome
 
-        return outcomes_of_cluster(options, plan, tasks)
-    return _outcomes_here(options, plan, tasks)
+
+def _pool_of(options: EngineOptions, plan: Plan) -> AbstractContextManager[Pool]:
+    if not options.cluster:
+        return _pool_here(options)
+    from mbla.sweeps.engine.cluster import pool_of_cluster
+
+    return pool_of_cluster(options, plan)
 
 
-def _outcomes_here(options: EngineOptions, plan: Plan, tasks: Sequence[Task]) -> Generator[Outcome, None, None]:
-    """Tasks are begun in their order by as many processes as are wanted, each with a thread that looks after it."""
-    left, lock = iter(tasks), threading.Lock()
-    found: queue.SimpleQueue[Outcome | BaseException] = queue.SimpleQueue()
-
-    def work(runner: SupervisedRunner) -> None:
+@contextmanager
+def _pool_here(options: EngineOptions) -> Iterator[Pool]:
+    """Threads of this process; nothing of them is left after the block."""
+    processes = Processes(until=options.until, threads=options.threads)
+    with ThreadPoolExecutor(options.workers) as executor:
         try:
-            while True:
-                with lock:
-                    task = next(left, None)
-                if task is None:
-                    return
-                late = options.until is not None and time.monotonic() >= options.until
-                not_begun = Outcome(task.key, FAILED, LimitError.exit_status, NOT_BEGUN, {}, 0, 0.0)
-                found.put(not_begun if late else runner.run(task))
-        except StoppedError:  # nothing waits for it any more
-            return
-        except BaseException as error:
-            found.put(error)
-
-    wanted = range(min(options.workers, len(tasks)))
-    runners = [SupervisedRunner(plan, until=options.until, threads=options.threads) for _ in wanted]
-    threads = [threading.Thread(target=work, args=(runner,), daemon=True) for runner in runners]
-    try:
-        for thread in threads:
-            thread.start()
-        for _ in tasks:
-            outcome = found.get()
-            if isinstance(outcome, BaseException):
-                raise outcome
-            yield outcome
-    finally:
-        for runner in runners:
-            runner.kill()
-        for thread in threads:
-            thread.join()
+            yield Pool(executor, processes.run, lambda: options.workers)
+        finally:
+            executor.shutdown(wait=False, cancel_futures=True)
+            processes.end()

@@ -7,7 +7,7 @@ import os
 import signal
 import subprocess
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -22,7 +22,6 @@ class RealCluster:
     """Processes that lead a session each."""
 
     folder: Path
-    options: Sequence[str] = ()
     environment: dict[str, str] = field(default_factory=dict)
     scheduler: subprocess.Popen[bytes] | None = None
     workers: list[subprocess.Popen[bytes]] = field(default_factory=list)
@@ -40,8 +39,7 @@ class RealCluster:
     def start_scheduler(self) -> None:
         """Begin it and wait until it has an address."""
         place = ("--host", "127.0.0.1", "--port", "0", "--no-dashboard", "--scheduler-file", str(self.file))
-        protocol = ("--protocol", "tls") if self.options else ()
-        self.scheduler = self._begin("scheduler", *place, *protocol)
+        self.scheduler = self._begin("scheduler", *place)
         wait_for(lambda: self.file.exists() and self.file.read_text(encoding="utf-8").endswith("}"))
 
     def start_worker(self, **environment: str) -> subprocess.Popen[bytes]:
@@ -54,7 +52,7 @@ class RealCluster:
     def _begin(self, kind: str, *options: str, **environment: str) -> subprocess.Popen[bytes]:
         with (self.folder / f"{kind}{len(self.workers)}.log").open("wb") as log:
             return subprocess.Popen(
-                (sys.executable, "-m", f"distributed.cli.dask_{kind}", *options, *self.options),
+                (sys.executable, "-m", f"distributed.cli.dask_{kind}", *options),
                 stdout=log,
                 stderr=log,
                 cwd=self.folder,
@@ -64,9 +62,9 @@ class RealCluster:
 
 
 @contextmanager
-def real_cluster(folder: Path, workers: int = 2, options: Sequence[str] = ()) -> Iterator[RealCluster]:
+def real_cluster(folder: Path, workers: int = 2) -> Iterator[RealCluster]:
     """One with so many workers; gone after the block."""
-    cluster = RealCluster(folder, options)
+    cluster = RealCluster(folder)
     try:
         cluster.start_scheduler()
         for _ in range(workers):

@@ -23,16 +23,6 @@ TLS = "tls://host:8786"
             EngineOptions(scheduler="host:8786"),
             "--scheduler host:8786: an address is tcp://HOST:PORT or tls://HOST:PORT",
         ),
-        (
-            EngineOptions(scheduler="tcp://host:8786", tls={"tls_ca_file": Path(__file__)}),
-            "--tls-ca-file: only for a scheduler at a tls:// address",
-        ),
-        (EngineOptions(tls={"tls_ca_file": Path(__file__)}), "--tls-ca-file: only for a scheduler at a tls:// address"),
-        (
-            EngineOptions(scheduler=TLS, tls={"tls_client_cert": Path(__file__)}),
-            "--tls-cert and --tls-key belong together",
-        ),
-        (EngineOptions(scheduler=TLS, tls={"tls_ca_file": Path("none")}), "--tls-ca-file none: there is no such file"),
     ],
 )
 def test_refused(options: EngineOptions, words: str) -> None:

@@ -45,7 +45,7 @@ from mbla.solution.linear_algebra.pattern import SymmetricPattern
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import IterationRecord
 from mbla.sweeps.engine import child
-from mbla.sweeps.engine.cluster import Connection
+from mbla.sweeps.engine.cluster import connected, lost
 from mbla.sweeps.engine.engine import EngineOptions, check_options
 from mbla.sweeps.engine.supervised import SupervisedRunner
 from mbla.sweeps.journal import Journal, open_journal
@@ -439,19 +439,12 @@ def machine_without_limits(folder: Path, patch: Patch) -> object:
 
 @brings("scheduler-lost")
 def scheduler_without_workers(folder: Path, patch: Patch) -> object:
-    raise connection(EngineOptions(scheduler="tcp://stone:8786"))._lost()
+    raise lost(EngineOptions(scheduler="tcp://stone:8786"))
 
 
 @brings("scheduler-file")
 def scheduler_file_that_is_not_there(folder: Path, patch: Patch) -> object:
-    return connection(EngineOptions(scheduler_file=folder / "s.json", patience=0.0))._address_in_file()
-
-
-def connection(options: EngineOptions) -> Connection:
-    """One that was not opened."""
-    made = object.__new__(Connection)
-    made._options = options
-    return made
+    return connected(EngineOptions(scheduler_file=folder / "s.json"))
 
 
 @brings("no-opengl")
