@@ -10,6 +10,7 @@ import numpy as np
 
 from mbla.arrays import BoolArray, IntArray
 from mbla.deck.deck import Deck
+from mbla.deck.positions import COPY
 from mbla.deck.sections.blocks import BlockItem
 from mbla.deck.sections.materials import Material
 from mbla.deck.text.tree import KeyPath
@@ -91,7 +92,7 @@ def collect_items(deck: Deck, faults: list[Fault]) -> CollectedItems:
             for part in own.parts:
                 positions = dict(part.labels)
                 if len(copies) > 1:
-                    positions["copy"] = np.full(len(part.polyhedra), copy)
+                    positions[COPY.name] = np.full(len(part.polyhedra), copy)
                 placed.append((number, group, replace(part, material=part.material or item.material, labels=positions)))
                 n_blocks += len(part.polyhedra)
     if not placed:
