@@ -36,11 +36,3 @@ def test_client_and_process_killed_a_few_times(tmp_path: Path) -> None:
     kills, reported = with_kills(killed, 2, Random(1), 0.1, 0.5)
     assert kills == 2
     check_like_clean(killed, clean, reported)
-
-
-def test_kills_of_client_and_process(tmp_path: Path) -> None:
-    path = written(tmp_path, 500)  # so many that no fast machine is done before the last kill
-    killed, clean = scene(path, tmp_path / "killed"), scene(path, tmp_path / "clean")
-    kills, reported = with_kills(killed, 20, Random(2), 0.5, 0.6)
-    assert kills == 20
-    check_like_clean(killed, clean, reported)

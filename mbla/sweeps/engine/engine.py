@@ -108,8 +108,9 @@ def outcomes_of(options: EngineOptions, plan: Plan, tasks: Sequence[Task]) -> Ge
                 task = running.pop(future)
                 try:
                     outcome = future.result()
-                except pool.given_up:
-                    outcome = Outcome(task.key, FAILED, 1, GIVEN_UP, {}, 1, 0.0)
+                except pool.given_up as error:
+                    tries = 1 + int(getattr(error, "allowed_failures", 0))
+                    outcome = Outcome(task.key, FAILED, 1, GIVEN_UP, {}, tries, 0.0)
                 yield outcome
 
 
