@@ -12,6 +12,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.results.pictures.camera import Camera, Room, fitted, view_of_case
+from mbla.results.pictures.fill import fill_marks
 from mbla.results.pictures.geometry import block_edges, edges_of_blocks
 from mbla.results.pictures.loads import shown_loads
 from mbla.results.pictures.marks import Mark, force_marks, joint_marks, moved
@@ -32,7 +33,7 @@ from mbla.results.pictures.page import (
     group_colours,
     open_page,
 )
-from mbla.results.pictures.plane import Flat, draw_flat, flat_of
+from mbla.results.pictures.plane import PALE, Flat, draw_flat, flat_of
 from mbla.results.pictures.renderer import image_of
 from mbla.results.pictures.scene import Scene, named_groups, part_colours
 from mbla.results.pictures.ties import tie_marks
@@ -77,7 +78,8 @@ def drawing_of(scene: Scene, kind: str, view: tuple[float, float] | None = None)
         tint = group_colours(blocks.groups)
         free = {group for group, support in zip(blocks.groups, held, strict=True) if not support}
         named, more = named_groups({group: colour for group, colour in tint.items() if group in free})
-        own, legend, marks = [tint[group] for group in blocks.groups], named + [(more, "white")] * bool(more), []
+        own, legend = [tint[group] for group in blocks.groups], named + [(more, "white")] * bool(more)
+        marks = fill_marks(scene)
     else:
         own, marks = part_colours(scene, GROUPS), joint_marks(scene, flat=flat is not None)
         legend = _parts(scene)
@@ -162,12 +164,15 @@ def _handles(page: Page, drawing: Drawing) -> list[Any]:
     boxes = [page.box(name, facecolor=colour, edgecolor=GHOST, linewidth=0.5) for name, colour in drawing.legend]
     marks = {}
     for mark in drawing.marks:
+        label = fill(mark.name, COLUMNS, max_lines=LINES, placeholder=" ...")
+        if mark.pale:
+            boxes.append(page.box(label, facecolor=mark.colour, alpha=PALE, edgecolor=GHOST, linewidth=0.5))
+            continue
         looks = {"marker": ">" if mark.arrows else "o", "markersize": 8 * page.scale}
         if (mark.pairs[:, 0] == mark.pairs[:, 1]).all():
             looks["linestyle"] = "none"
         elif not mark.arrows and mark.name != "hinge":
             looks = {}
-        label = fill(mark.name, COLUMNS, max_lines=LINES, placeholder=" ...")
         if label and (mark.arrows or label not in marks):
             marks[label] = page.line(label, color=mark.colour, linewidth=3.0 * page.scale, **looks)
     return [*boxes, *marks.values()]

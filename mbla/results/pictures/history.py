@@ -27,6 +27,10 @@ LINES = (
 """residuals of an iteration: field, name, colour, line, marker"""
 
 
+SPREAD = 10.0
+"""greatest over least load factor from which positions of a load are drawn to a logarithmic scale"""
+
+
 def draw_history(path: Path, scene: Scene, options: PictureOptions) -> None:
     """Write the iteration history of a case, and the path of elastic joints where one was followed.
 
@@ -187,8 +191,17 @@ def _draw_positions(page: Page, axes: Any, place: FloatArray, values: FloatArray
         if chosen.any():
             look = {"markerfacecolor": face, "markeredgecolor": BLUE, "linestyle": "none", "markersize": size}
             axes.plot(place[chosen], values[chosen], marker="o", label=name, **look)
-    if known.any():
-        axes.set_ylim(bottom=min(0.0, 1.1 * float(values[known].min())))
+    low, high = (
+        float(np.min(values, where=known, initial=np.inf)),
+        float(np.max(values, where=known, initial=-np.inf)),
+    )
+    if 0.0 < SPREAD * low < high:  # the ends of the path, where hardly any load is on it, would hide the rest
+        axes.set_yscale("log")
+        axes.tick_params(which="minor", labelsize=page.small, colors=INK)
+        for axis in (axes.yaxis.set_major_formatter, axes.yaxis.set_minor_formatter):
+            axis(page.parts.ticker.LogFormatter(labelOnlyBase=False, minor_thresholds=(2, 0.5)))
+    elif known.any():
+        axes.set_ylim(bottom=min(0.0, 1.1 * low))
     for chosen, level, marker, name in (
         (np.isnan(values), 0.03, "x", "no result"),
         (np.isinf(values), 0.97, "^", "any multiple is carried"),

@@ -3,7 +3,7 @@
 A load case knows the force and moment on each block about its centroid. A force F with a moment M across it acts along
 the line through p = c + F × M / F², c the centroid; its arrow ends where that line enters the box around the block.
 Forces that are one acceleration times the mass are one arrow for all blocks. A vehicle has an arrow for each axle that
-is on its path.
+is on its path; a load that travels its way, and the arrows of the worst position.
 """
 
 from __future__ import annotations
@@ -15,14 +15,14 @@ from dataclasses import replace
 import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
-from mbla.model.fill import UPWARD
 from mbla.model.model import LoadCase, Model
 from mbla.questions.reaction import Settlement
 from mbla.questions.travel import TravelPosition
-from mbla.results.pictures.marks import Mark, arrows, rings
-from mbla.results.pictures.page import CASES, DEAD_LOAD, FILL, LIVE_LOAD
+from mbla.results.pictures.marks import Mark, arrows, dots, rings, segments
+from mbla.results.pictures.page import CASES, DEAD_LOAD, LIVE_LOAD
 from mbla.results.pictures.scene import Scene
-from mbla.results.series import without_vehicle
+from mbla.results.results import CaseResult
+from mbla.results.series import position_of, without_vehicle, worst_known
 
 SAME = 1e-6
 """relative difference up to which blocks have the same acceleration; results are stored in full, so it is rounding"""
@@ -43,68 +43,48 @@ def shown_loads(scene: Scene, kind: str) -> list[Mark]:
     case, found = scene.case.load_case, list[Mark]()
     falls = kind == "mechanism" and scene.mechanics is None and scene.case.solution.certificate is not None
     if kind == "model" or falls:
-        text = _text("dead load", case.dead_words)
+        text = text_of("dead load", case.dead_words)
         found += marks_of_load(scene, text, DEAD_LOAD, scene.dead_load, case.dead_words)
-    if kind == "model":
-        found += fill_marks(scene)
     if kind != "model":
         return found + live_marks(scene, case, "live load", LIVE_LOAD, place=bool(found))
-    cases: dict[str, list[LoadCase]] = {}
+    cases: dict[str, list[CaseResult]] = {}
     for shown in scene.shown_cases:
-        cases.setdefault(shown.load_case.deck_name, []).append(shown.load_case)
+        cases.setdefault(shown.load_case.deck_name, []).append(shown)
     for row, (name, together) in enumerate(cases.items()):
         label = f"live load {name}" if len(cases) > 1 else "live load"
         label, colour = label if row < MOST_CASES else "", CASES[row % len(CASES)]
+        if len(together) > 1 and together[0].load_case.travel is not None:
+            found += path_marks(together, f"{label}, {len(together)} positions" if label else "", colour)
+            together = [worst_known(together)]
         for each in together:
-            found += live_marks(scene, each, label, colour, row + 1, len(together))
+            found += live_marks(scene, each.load_case, label, colour, row + 1)
     return found
 
 
-def fill_marks(scene: Scene) -> list[Mark]:
-    """Arrows of the weight of the fill on free blocks, where its columns stand; none without fill."""
-    model = scene.model
-    if model.fill is None:
-        return []
-    carrying = np.flatnonzero((model.fill.masses > 0) & ~model.fixed)
-    if not len(carrying):
-        return []
-    weights = model.fill.masses[carrying, None] * np.array([0.0, 0.0, -1.0])
-    tips = np.column_stack([model.fill.points[carrying, :2], _tops(model, carrying)])
-    text, both = _text("fill", model.fill.words), np.column_stack([carrying, carrying])
-    return [arrows(text, FILL, tips, arrow_steps(weights, scene.size), both, [text] * len(carrying))]
+def path_marks(positions: Sequence[CaseResult], label: str, colour: str) -> list[Mark]:
+    """The way of a travelling load, from where it stands first, or its first axle, with a dot at each position."""
+    points = np.array([position_of(each).point for each in positions])
+    bodies, texts = np.full((len(points), 2), -1), [label] * len(points)
+    line = segments(label, colour, np.stack([points[:-1], points[1:]], axis=1), bodies[1:], texts[1:])
+    return [replace(line, widths=np.full(len(line.pairs), 0.3)), dots(label, colour, points, bodies, texts)]
 
 
-def _tops(model: Model, carrying: IntArray) -> FloatArray:
-    """Height of the tops of blocks under the fill they carry, (n,): the lowest of the planes of their upward faces."""
-    blocks, points = model.blocks, model.fill.points if model.fill else model.blocks.centroids
-    faces = np.flatnonzero(blocks.face_normals[:, 2] > UPWARD)
-    owner, normals = blocks.block_of_face[faces], blocks.face_normals[faces]
-    first = blocks.vertices[blocks.loops[blocks.loop_start[faces]]]
-    away = ((points[owner] - first)[:, :2] * normals[:, :2]).sum(axis=1)
-    lowest = np.full(len(blocks), np.inf)
-    np.minimum.at(lowest, owner, first[:, 2] - away / normals[:, 2])
-    return np.asarray(lowest[carrying])
-
-
-def live_marks(scene: Scene, case: LoadCase, label: str, colour: str, place: int = 0, positions: int = 1) -> list[Mark]:
+def live_marks(scene: Scene, case: LoadCase, label: str, colour: str, place: int = 0) -> list[Mark]:
     """The live load of a load case, of a vehicle its axles, or the way that a support gives.
 
-    label     : for the legend; empty for none
-    place     : number among the loads of the picture
-    positions : of a travelling load that are drawn together
+    label : for the legend; empty for none
+    place : number among the loads of the picture
     """
     if not case.question.collapses:
         return []
     if case.settlement is not None:
         text = f"{label.replace('live load', '').strip()} {case.settlement.words}".strip()
         return _of_settlement(scene, text if label else "", colour, case.settlement)
-    many = case.travel is not None and positions > 1
-    words = (f"{positions} positions",) if many else case.live_words
-    text = _text(label, words) if label else ""
-    return marks_of_load(scene, text, colour, case.live_load, words, None if many else case.travel, place)
+    text = text_of(label, case.live_words) if label else ""
+    return marks_of_load(scene, text, colour, case.live_load, case.live_words, case.travel, place)
 
 
-def _text(name: str, words: tuple[str, ...]) -> str:
+def text_of(name: str, words: tuple[str, ...]) -> str:
     """Loads one after the other, the same words once with how often they apply."""
     counted = [word if count == 1 else f"{count} times {word}" for word, count in Counter(words).items()]
     return f"{name}: {'; '.join(counted)}" if counted else name

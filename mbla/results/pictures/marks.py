@@ -58,6 +58,7 @@ class Mark:
     faces  : (m, 4) rows of points, areas between bodies that part
     inside : it lies within the blocks and is seen only through them
     covered : blocks in front of it hide it, where other marks shine through
+    pale    : its areas are seen through, and lie behind the blocks of a plane figure
     """
 
     name: str
@@ -71,6 +72,7 @@ class Mark:
     arrows: bool = False
     inside: bool = False
     covered: bool = False
+    pale: bool = False
 
 
 def moved(mark: Mark, model: Model, motion: FloatArray) -> FloatArray:
@@ -184,22 +186,28 @@ def interface_sides(contacts: Contacts, chosen: BoolArray) -> IntArray:
     return np.column_stack([rows, following])[on_outline]
 
 
+def outer_rows(sides: FloatArray, size: float, of: IntArray | None = None) -> BoolArray:
+    """Which sides, (n, 2, 3) m, no other has too, of the same (n, k) where that is given; ``size`` of the model, m."""
+    ends = np.rint(sides / (SAME_PLACE * size)).astype(np.int64)
+    later = np.array([one > other for one, other in ends.tolist()], dtype=bool)
+    ends[later] = ends[later, ::-1]
+    keys = ends.reshape(len(ends), 6)
+    keys = keys if of is None else np.hstack([keys, of])
+    _, row, times = np.unique(keys, axis=0, return_inverse=True, return_counts=True)
+    return np.asarray(times[row.ravel()] == 1)
+
+
 def cracks(scene: Scene, names: Sequence[str]) -> Mark:
     """Outlines of the surfaces in which parts of the listing come apart, as part of the blocks of both sides.
 
     A side that two interfaces of one surface share lies within it.
     """
-    contacts, fine = scene.contacts, SAME_PLACE * scene.size
+    contacts = scene.contacts
     sides = interface_sides(contacts, scene.apart)
     of_body = np.append(scene.clusters, np.zeros(len(scene.model.grounds), dtype=np.int64))
     owners = contacts.interface_of_point[sides[:, 0]]
     parts = np.sort(of_body[contacts.bodies[owners]], axis=1)
-    ends = np.rint(contacts.points[sides] / fine).reshape(-1, 6)
-    turned = ends[:, [3, 4, 5, 0, 1, 2]]
-    first = np.array([tuple(one) <= tuple(other) for one, other in zip(ends.tolist(), turned.tolist(), strict=True)])
-    keys = np.hstack([parts, np.where(first[:, None], ends, turned)]) if len(sides) else np.zeros((0, 8))
-    _, row, times = np.unique(keys, axis=0, return_inverse=True, return_counts=True)
-    outer = times[row.ravel()] == 1
+    outer = outer_rows(contacts.points[sides], scene.size, parts)
     sides, owners = np.tile(sides[outer], (2, 1)), np.tile(owners[outer], 2)
     bodies = contacts.bodies[owners[: len(owners) // 2]].T.ravel()
     texts = [f"crack: {names[owner]}" for owner in owners.tolist()]

@@ -34,6 +34,8 @@ MANY = 300
 """blocks from which outlines are thinner"""
 THICK, FINEST, DOT = 3.0, 0.7, 9.0
 """width of lines, of the finest, and diameter of dots, points"""
+PALE = 0.3
+"""strength of areas that are seen through"""
 END_ON = 2e-3
 """length of a segment on the page, heights of it, below which it is a dot"""
 
@@ -166,7 +168,10 @@ def draw_flat(page: Page, axes: Any, camera: Camera, scene: Scene, drawing: Draw
 def _draw_mark(page: Page, axes: Any, mark: Mark, points: FloatArray) -> None:
     """Areas, then segments, arrows, and dots where segments have no length on the page; points (n, 2)."""
     areas = [points[face] for face in mark.faces]
-    _areas(page, axes, areas, facecolors=mark.colour, edgecolors=INK, hatch="xxxx", linewidths=0.6, zorder=3)
+    look = {"edgecolors": INK, "hatch": "xxxx", "linewidths": 0.6, "zorder": 3.0}
+    if mark.pale:
+        areas, look = _united(areas), {"edgecolors": "none", "alpha": PALE, "zorder": 0.7}
+    _areas(page, axes, areas, facecolors=mark.colour, **look)
     ends = points[mark.pairs]
     steps = ends[:, 1] - ends[:, 0]
     seen = np.linalg.norm(steps, axis=1) > END_ON
@@ -179,6 +184,15 @@ def _draw_mark(page: Page, axes: Any, mark: Mark, points: FloatArray) -> None:
         sizes = (DOT * np.clip(1.2 * mark.widths[~seen], 0.5, 1.0) * page.scale) ** 2
         style = {"color": mark.colour, "edgecolors": INK, "linewidths": 0.8 * page.scale, "zorder": 6}
         axes.scatter(*ends[~seen].mean(axis=1).T, s=sizes, **style)
+
+
+def _united(areas: Sequence[FloatArray]) -> list[FloatArray]:
+    """Outlines of what areas, (n, 2) each, cover together: those that lie on each other are no darker."""
+    import shapely
+
+    covered = shapely.union_all([shapely.make_valid(shapely.Polygon(area)) for area in areas])
+    parts = [part for part in shapely.get_parts(covered) if part.geom_type == "Polygon"]
+    return [np.array(part.exterior.coords) for part in parts]
 
 
 def _draw_arrows(page: Page, axes: Any, tips: FloatArray, steps: FloatArray, colour: str) -> None:

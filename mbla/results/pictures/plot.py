@@ -11,7 +11,7 @@ from mbla.errors import UsageError
 from mbla.results.pictures import drawing
 from mbla.results.pictures.animation import format_of_film, write_animation
 from mbla.results.pictures.history import draw_curve, draw_history, draw_series
-from mbla.results.pictures.options import KINDS, PictureOptions, format_of, is_single
+from mbla.results.pictures.options import KINDS, USUAL_KINDS, PictureOptions, format_of, is_single
 from mbla.results.pictures.page import PictureFile, write_pictures
 from mbla.results.pictures.scene import Scene, scene_of
 from mbla.results.results import CaseResult, Results
@@ -23,7 +23,7 @@ def plot_results(results: Results, target: Path, stem: str, options: PictureOpti
 
     ``STEM_model.png``, and for each load case ``STEM_CASE.png`` (mechanism), ``STEM_CASE_forces.png`` and
     ``STEM_CASE_history.png``, of a pushover ``STEM_CASE_curve.png``; ``STEM_SERIES_history.png`` for the positions of a
-    travelling load. With
+    travelling load, which is among the usual kinds. With
     ``options.animate`` ``STEM_CASE.gif`` or ``.mp4`` for each load case that has a motion.
 
     target : a file with the suffix .png, .svg or .pdf, for a single picture; else a folder, created if missing
@@ -66,7 +66,7 @@ def pictures_of(results: Results, cases: Sequence[CaseResult], options: PictureO
         for kind in (kind for kind in options.kinds if kind not in drawn):
             name = names[case.load_case.name] if kind == "mechanism" else f"_{case.load_case.name}_{kind}"
             pictures.append(PictureFile(name, of(case, kind)))
-    if "history" in options.kinds:
+    if "history" in options.kinds or options.kinds == USUAL_KINDS:
         for series in series_of(results.cases):
             if len(series.cases) > 1 and options.case in (None, series.name):
                 scene = scene_of(results, series.cases[0], options, "history")

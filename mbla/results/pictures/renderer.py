@@ -31,6 +31,8 @@ THICK = 0.005
 """radius of the thickest marks over the diagonal of what is seen"""
 SHINE = 0.7
 """strength of marks that blocks hide"""
+EARTH = 0.8
+"""strength of areas that are seen through"""
 MANY = 400
 """blocks from which edges are drawn thinner"""
 ByteArray = npt.NDArray[np.uint8]
@@ -180,6 +182,7 @@ def _actors(vista: Any, plotter: Any, mark: Mark, points: FloatArray, radius: fl
                 ball = vista.Sphere(radius=1.6 * max(width, 0.1) * radius)
                 meshes.append(vista.PolyData(dots).glyph(geom=ball, orient=False, scale=False))
     flat = {"ambient": 1.0, "diffuse": 0.0} if len(mark.faces) else {"ambient": 0.42, "diffuse": 0.85}
+    flat |= {"opacity": EARTH} if mark.pale else {}
     return [plotter.add_mesh(mesh, color=mark.colour, specular=0.0, **flat) for mesh in meshes]
 
 

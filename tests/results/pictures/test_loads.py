@@ -16,7 +16,7 @@ from mbla.results.pictures.page import CASES, DEAD_LOAD, LIVE_LOAD
 from mbla.results.pictures.scene import Scene, scene_of
 from mbla.results.results import Results
 from tests.results.pictures.rows_and_columns import row_of_blocks
-from tests.results.synthetic import G, tower_model, tower_results
+from tests.results.synthetic import G, standing_at, tower_model, tower_results
 
 GRAVITY = ("gravity (0, 0, -9.81) m/s2",)
 
@@ -120,6 +120,26 @@ def test_a_vehicle_has_an_arrow_for_each_axle_on_its_path() -> None:
     loads = wrench([0, 0, -5], points[1], 1) + wrench([0, 0, -3], points[2], 1) + wrench([2, 0, 0], [0, 0.5, 2], 1)
     (mark,) = marks(loads, "force", "position 1", travel=vehicle)
     assert np.array(tips(mark))[:, 0].tolist() == pytest.approx([0, 0.8, 0.2])
+
+
+def test_positions_of_a_travelling_load_are_one_way_and_the_arrows_of_the_worst() -> None:
+    results = tower_results()
+    own = results.cases[0].solution.mechanics
+    assert own is not None
+    cases = []
+    for number, factor in ((1, 0.7), (2, 0.5), (3, 0.6)):
+        case = results.cases[0]
+        travel = standing_at(number, 3, np.array([0.2 * number, 0.5, 4.0]), 0.2 * number)
+        loads = wrench([0, 0, -1], travel.points[0].tolist(), 1)
+        load_case = replace(case.load_case, name=f"train@{number}", live_load=loads, live_words=("f",), travel=travel)
+        solution = replace(case.solution, mechanics=replace(own, load_factor=factor))
+        cases.append(replace(case, load_case=load_case, solution=solution))
+    shown = scene(replace(results, cases=tuple(cases)))
+    line, places, arrow = (mark for mark in shown_loads(shown, "model") if mark.colour == CASES[0])
+    assert line.name == places.name == "live load, 3 positions"
+    assert len(line.pairs) == 2
+    assert places.points[:, 0].tolist() == pytest.approx([0.2, 0.4, 0.6])
+    assert np.array(tips(arrow))[:, 0].tolist() == pytest.approx([0.4])
 
 
 def test_many_forces_have_short_arrows() -> None:
