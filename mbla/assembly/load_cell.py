@@ -5,7 +5,7 @@ on the side where it counts. The cell can only slide along the direction of the 
 F = R0 − λ U (:mod:`mbla.model.objective`), and its velocity q opens the cut, which adds q d to the velocity of one side
 relative to the other at all contact points of the cut.
 
-A tie that is asked for pulls at it as well, by its whole tension, and gets longer as it moves.
+A tie of the objective pulls at the cell as well, with its whole tension, and gets longer as the cell moves.
 
 It is the last body that the solver sees, and in no result: where the live power is 1 its velocity is 1/U.
 """

@@ -9,13 +9,13 @@ and from its motion (v, ω) about c come those of its members::
 
     v_b = v + ω × (c_b − c),    ω_b = ω
 
-Contact forces of glued interfaces are not computed: they are internal forces of a rigid body. An interface of any other
-law between two members of one body carries nothing that equilibrium could determine either and is left out with them.
+Contact forces of glued interfaces are not computed: they are internal forces of a rigid body. Interfaces of other laws
+between two members of one body are left out as well, as equilibrium cannot determine their forces either.
 
-Guides of glued blocks: the body moves as its guided block does. A way in which block b moves with (v, ω) about its own
-centroid c_b moves its body with (v + ω × (c − c_b), ω) about the centroid c of the body. Two guided blocks of one body
-agree where they are guided as one and both give the body the same motion in each way; otherwise their guides would have
-to be intersected, and such a deck is refused.
+Guides of glued blocks: the body moves as its guided block does. An admissible motion (v, ω) of block b about its own
+centroid c_b is the motion (v + ω × (c − c_b), ω) of the body about its centroid c. Two guided blocks of one body agree
+where they are guided as one and give the body the same admissible motions; otherwise their guides would have to be
+intersected, and such a deck is refused.
 """
 
 from __future__ import annotations

@@ -4,9 +4,9 @@ A tie is a contact point without friction. Its normal leads from body a to body 
 strut's is its compression), between two limits; it gets longer where that point closes. So a tie is a joint that
 crushes at its capacity and has no tensile strength, in every flow rule, contact model and reduction.
 
-The contact point lies amid the points of the tie, its normal along the line between its first and last one. What the
-force of a tie that passes other points does besides is added as further forces (``TieContacts``). Prestress is a dead
-load, and N is the change from it: a load factor does not change with it.
+The contact point lies amid the points of the tie, its normal along the line from the first to the last point. The
+forces of the tie at the points that it passes in between are added (``TieContacts``). Prestress is a dead load, and N
+is the change from it: a load factor does not depend on prestress.
 """
 
 from __future__ import annotations

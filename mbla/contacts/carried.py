@@ -1,15 +1,15 @@
 """Contact points carried along by the blocks that touch there: where they are at any pose, and how far apart.
 
-A contact point is a material point of one body, the *slave*, the one whose corner it is, on a face of the other, the
-*host*, whose normal it has and whose frame turns with it: the gap is the distance from that face wherever the point
-slides. Its offset, the place of the point of b from that of a in that frame, is the gap across and the slip along. A
-force that acts at the slave's point does on both bodies the work of the offset exactly, so that the equilibrium matrix
-there is the derivative of the offsets by the poses::
+A contact point is a material point of the *slave*, the body whose corner it is, on a face of the *host*, the other
+body. Normal and frame of the point turn with the host, so that the gap is the distance from that face wherever the
+point slides. The offset, the position of the point of b relative to the point of a in that frame, is the gap across the
+joint and the slip along it. A force at the slave's point does exactly the work of the offset on both bodies, so that
+the equilibrium matrix is the derivative of the offsets by the poses::
 
     w = F (x_b − x_a),    dw = Aᵀ du
 
-An interface that has not slid keeps its points when contacts are searched anew: what they remember, and the stiffness
-that goes by how many they are, stay with them.
+An interface that has not slid keeps its points when contacts are searched anew, with their history and with the
+stiffness that depends on the number of points.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """Faults of the deck that only its contacts show: blocks that overlap, and bent faces that touch.
 
-Contacts need planes, so that a block is refused if it touches another with a face that was split because it is bent,
-unless the other has the same face, split alike.
+Contacts need planes. A bent face, which was split into triangles, may touch only the same face of another block, split
+alike; else its block is refused.
 """
 
 from __future__ import annotations

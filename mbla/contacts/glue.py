@@ -1,4 +1,4 @@
-"""Glue: blocks that interfaces with the joint law *glued* join to one rigid body, and those that it holds to a support.
+"""Glue: blocks that interfaces of the joint law *glued* join to one rigid body, or to a support.
 
 Blocks that glue joins to a support, directly or through others, do not move. Every block that moves belongs to one
 rigid body, most of them alone; what the solver sees of them is in :mod:`mbla.assembly.rigid_bodies`.

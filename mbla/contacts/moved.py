@@ -2,13 +2,13 @@
 
 Faces of moved blocks are no longer parallel, and a joint that opens about an edge stays a contact at that edge. Two
 facets face each other where their normals are opposite within ``FACING``; their outlines are projected along the normal
-of the contact, and every corner of what they share is a contact point with its own gap, the distance of the two planes
-there with its sign. The normal is that of the face on which an edge of the other block stands, and the mean of both
-where both have an edge there. A point outside of what they share would hold a block that nothing holds.
+of the contact, and every corner of the common outline is a contact point with its own gap, the signed distance of the
+two planes there. The normal is that of the face on which an edge of the other block stands, and the mean of both
+normals where both faces have an edge there. A point outside of the common outline would hold a block without contact.
 
-Bodies that press on each other overlap a little, and so do then the faces beside their joint, along a strip as wide as
-that: where such a strip is all that two faces share, or where they share less in width than in depth, other faces keep
-the bodies apart. Taken for contacts, such faces jam vaults.
+Bodies that press on each other overlap a little, and so do the faces beside their joint, along a strip as wide as the
+overlap. Where two faces share no more than such a strip, or less in width than in depth, other faces keep the bodies
+apart. Taken for contacts, such faces jam vaults.
 
 With blocks where they were built these are the contacts that :mod:`mbla.contacts.search` finds: what gaps there within
 the tolerance touches, and the gap in the middle of two facets then counts as none later as well. Facets that share an

@@ -1,9 +1,9 @@
 """Pieces of a face that two bodies hold: a ground and what lies in its plane, a footing or another ground.
 
-Each of them alone would hold the piece with all of its cohesion, tensile and compressive strength; both together would
-count these twice. Of two supports with one joint law the earlier one has the piece, blocks before grounds, and the
-later ground what lies off it: the piece is counted once. With different laws, or where one of the two can move,
-nothing says which of them holds it, and the deck is refused.
+Either body alone would hold the piece with the full cohesion, tensile and compressive strength; both together would
+count these strengths twice. Of two supports with one joint law the first holds the piece, blocks before grounds, and
+the second only the rest of its area. With different laws, or where one of the two bodies can move, nothing says which
+one holds the piece, and the deck is refused.
 
 Blocks alone cannot hold a piece twice: they would overlap.
 """

@@ -5,9 +5,8 @@ distance by which they must be moved apart is that of the origin from the surfac
 of their corners (penetration depth: Cameron and Culley 1986, doi:10.1109/ROBOT.1986.1087645), and the way is the normal
 of the hull there. It is exact, edges across edges included.
 
-Blocks that are not convex may interlock, and no way leads out of each other that says how deep they lie within each
-other where they touch. Of them it is the farthest that a point of the surface of either lies below that of the other,
-of points spread over the surface of what they share.
+Blocks that are not convex may interlock, so that no translation parts them. Their depth is the greatest distance of a
+point on the surface of one block below the surface of the other, over points spread over the shared volume's surface.
 """
 
 from __future__ import annotations

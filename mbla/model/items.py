@@ -217,7 +217,7 @@ def _flat_faces(deck: Deck, defects: Sequence[Defect], item_of_block: IntArray, 
 
 
 def _called(deck: Deck, blocks: Blocks, block: int, number: int) -> str:
-    """Name of a block; with that which its file gives it, where it comes from one: ``vault[17] (key_stone)``."""
+    """Name of a block, with its name in a geometry file: ``vault[17] (key_stone)``."""
     member = blocks.labels.members[block] if deck.content.blocks[number].facts.files else ""
     return f"{blocks.name(block)}{f' ({member})' if member else ''}"
 

@@ -97,11 +97,11 @@ class LoadCase:
     dead_load, live_load : (n_blocks, 6) force N and moment N m, also on fixed blocks (they go into the support)
     dead_words, live_words : the loads in words, for the listing
     settlement : settling support, None for none
-    objective  : force whose least or greatest value is sought, by the settlement of what it acts through; None for none
+    objective  : force whose least or greatest value is looked for, as reaction of a load cell; None for none
     travel, tilt : where it is a position of a travelling load, or a tilting table
-    pushover : what follows limit analysis, None for nothing; of positions of a travelling load all that may be pushed
-               have it, and once they are solved the one that is
-    assessment : what a code is asked, None for nothing
+    pushover : the pushover that follows limit analysis, None for none; before the positions of a travelling load are
+               solved, all positions that may be pushed have it, afterwards the one that is pushed
+    assessment : the question to a code, None for none
     """
 
     name: str
@@ -159,15 +159,15 @@ class Model:
     joints      : joint laws by name
     load_cases  : in the order of the deck
     notices     : repairs and remarks from building it
-    guides      : blocks that may move in given ways only; they count as free
+    guides      : guided blocks with their admissible motions; they count as free
     mirrors     : unit normal m and offset d of the planes of symmetry that the deck gives, m·x = d: only symmetric
                   states are searched
-    interfaces  : those that the deck gives by their corners; None where they are to be found, and in models from result
-                  files, which have the contacts that were made of them
-    ties        : what holds blocks together or apart beside joints
-    bent        : faces that were split into triangles, in contact with the same one of another block at most; in no
-                  result file
-    fill        : soil that blocks carry, counted among their added masses; None for none
+    interfaces  : interfaces that the deck gives by their corners; None where contacts are searched for, and in models
+                  from result files, which have the contacts themselves
+    ties        : ties, struts, rings and strips between blocks
+    bent        : bent faces that were split into triangles, in contact with the same face of another block at most; in
+                  no result file
+    fill        : soil on blocks, counted among their added masses; None for none
     """
 
     title: str

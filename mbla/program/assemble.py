@@ -1,13 +1,12 @@
 """From model, contacts and load case to the non-dimensional program.
 
-Light blocks have units of force of their own: what hangs on one heavy block alone is measured by its own load. A
-program in units of the mean load cannot resolve a block that carries less of it than sixteen digits hold: a block of
-1 m on a free one of 10 km is 2e-12 of it. But such a block, or a pile of them, that touches no more than one heavier
-body cannot be pressed by anything but its own loads. Its rows of equilibrium, and the forces at its contacts, are then
-measured by these; in the row of the heavy block the latter are as small as they are.
+Light blocks have units of force of their own. A program in units of the mean load cannot resolve a block whose load is
+below the rounding of that unit: a block of 1 m on a free block of 10 km has 2e-12 of it. A light block, or a pile of
+light blocks, that touches no more than one heavier body carries only its own loads. The unit of its equations of
+equilibrium, and of the forces at its contacts, is then its own load.
 
-A light block between two heavy ones carries what they press through it, as does one between a heavy block and a guide,
-and keeps their unit.
+A light block between two heavy blocks, or between a heavy block and a guide, carries the force between these, and keeps
+the unit of the mean load.
 """
 
 from __future__ import annotations

@@ -26,7 +26,7 @@ from mbla.program.resultants.stress_blocks import Pieces
 
 @dataclass(frozen=True)
 class Reserves:
-    """What pieces of interfaces, each the only one of its own, have left of their conditions under forces.
+    """Reserves of pieces of interfaces, each the only piece of its interface: values of their conditions under forces.
 
     resultants : (components m, components n_points) r of the m pieces from the contact forces
     pieces     : their conditions

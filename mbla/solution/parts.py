@@ -1,7 +1,7 @@
 """From parts that cannot interact to the whole structure: the part that collapses first gives the load factor.
 
-The others are at rest. What they carry at that load factor is found by one program each: the least contact forces, in
-the sense of ½ ‖x‖², in equilibrium with f_D + λ f_L.
+The other parts are at rest. Their contact forces at that load factor are the least in the sense of ½ ‖x‖² in
+equilibrium with f_D + λ f_L, by one program each.
 """
 
 from __future__ import annotations

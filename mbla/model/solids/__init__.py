@@ -1,1 +1,1 @@
-"""Blocks as solids: polyhedra, what is measured on them, what makes them unfit, and how blocks are made of them."""
+"""Blocks as solids: polyhedra, their measures, their defects, and how blocks are built from them."""

@@ -283,7 +283,7 @@ def _held_at_corner(
 ) -> IntArray | None:
     """Which of the blocks at a corner of a ring it presses on: one, or the two between which the corner is.
 
-    None where they lie above each other, so that it is left open which of them it holds.
+    None where these blocks lie above each other: which of them the ring holds is undetermined.
     """
     if len(found) < 2:
         return found

@@ -1,12 +1,12 @@
 """What each reduction did for one load case: its name, what it found, and the size of the programs before and after.
 
-Reductions are counted in the order in which they are applied, each on what those before it left. Counted are the
-programs that have a live load in them: others only have to show that the dead load is carried.
+Reductions are counted in the order in which they are applied, each on the programs that the reduction before it made.
+Only programs with a live load are counted: the others only have to show that the dead load is carried.
 
 Glue comes first: blocks that are one rigid body have the unknowns of one (:mod:`mbla.assembly.rigid_bodies`). It cannot
-be switched off. A glued joint has no law that would give its forces another value than equilibrium leaves open, and no
-strength that could be reached: without merging there would be unknowns for forces that nothing determines. Joints with
-finite strengths high enough give the same load factor, which the tests show.
+be switched off. A glued joint has no law and no strength, and equilibrium does not determine its forces: without
+merging these forces would be undetermined unknowns. Joints with finite strengths high enough give the same load factor,
+which the tests show.
 """
 
 from __future__ import annotations

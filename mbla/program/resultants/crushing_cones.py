@@ -11,8 +11,8 @@ and Q_1, Q_2 at most each of their bounds, which are half-lines. Multipliers of 
 of the first cone, β of the second and q_e of the bounds are, and leave α_2 = −φ(β_0 + β_1)/2 and γ = (Σq, Σ ± q,
 −φ(β_0 − β_1))/2.
 
-A piece that is the only one of its interface moves by the sum of Gᵀζ over its conditions, which can be taken in one by
-one. Pieces that act side by side move alike, Gᵀζ = ψ: as many multipliers as ψ has components follow from the others,
+The only piece of an interface moves by the sum of Gᵀζ over its conditions, which can be taken in one by one. Pieces
+that act side by side move alike, Gᵀζ = ψ: as many multipliers as ψ has components follow from the others,
 the first of edges, whose G is Q, or q_e of different bounds.
 """
 

@@ -1,8 +1,8 @@
 """Interfaces that are images of one another in a program of one half of a structure.
 
 A point of the half stands for itself and for its image; so do the interfaces. Conditions on one of two images are
-enough: both are under as much of what the half carries. A motion w of one of them, dual to its resultants, is one by
-w/2 of each, as its own and as seen in the mirror; an interface that the plane halves has the mean of w and its image.
+enough, as both carry the same share of the force. A motion w of one interface, dual to its resultants, is a motion w/2
+of itself and the mirror image of w/2 of its image; an interface that the plane cuts has the mean of w and its image.
 """
 
 from __future__ import annotations

@@ -1,11 +1,11 @@
 """A load factor proved from both sides: by one interior-point method, and where that leaves it open by the other.
 
-What a method returns is repaired (``bounds``): forces that balance the loads prove the factor from below, compatible
-velocities from above. Where the two lie too far apart the other method takes the program in units of what was found:
-the equilibrium of each block in those of what it carries, the live power in those of the load factor, for the tolerance
-of a method is one for all; and within a friction that it can tell from none, which the true one contains. A stack at
-its greatest overhang is sharpest in units of its dead load: last comes the first method again. What stays open then is
-approximate, and said.
+The solution of a method is repaired (``bounds``): forces that balance the loads prove the load factor from below,
+compatible velocities from above. Where the bounds lie too far apart, the other method solves the program again in units
+of the first solution, as a method has one tolerance for all equations: the equilibrium of each block in units of the
+force that it carries, the live power in units of the load factor. Very large friction is reduced there: its cones lie
+within the true ones. Last, the first method solves the program at its smallest tolerance, which is sharpest for a stack
+at its greatest overhang. If the bounds are still apart, the load factor is approximate.
 """
 
 from __future__ import annotations
@@ -192,7 +192,7 @@ def _answer(run: AssociativeRun, form: AssociativeForm, unit: float, settings: S
 
 
 def _with_proof(run: AssociativeRun, form: AssociativeForm, solution: ConeSolution) -> ProvedSolution:
-    """A solution, and what of it can be proved."""
+    """A solution with its proved bounds, or with a certificate that there is no equilibrium."""
     if solution.status in (Status.TIME_LIMIT, Status.ITERATION_LIMIT, Status.UNBOUNDED):
         return ProvedSolution(solution, form)
     certificate = proved_certificate(run, form, solution)

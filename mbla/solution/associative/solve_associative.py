@@ -1,13 +1,12 @@
 """The associative load factor: a cone program, solved until proved bounds meet, and a proof that the dead load stands.
 
-With associative flow the static and the kinematic theorem hold, so that the optimum is unique. What the solver returns
-is not trusted but repaired (``bounds``): forces that balance the loads prove the factor from below,
+With associative flow the static and the kinematic theorem hold, so that the optimum is unique. The solution of the
+solver is not trusted but repaired (``bounds``): forces that balance the loads prove the load factor from below,
 compatible velocities from above (:mod:`mbla.solution.associative.proved_solution`).
 
-The load factors under which the structure is in equilibrium form an interval. The dead load alone is carried if there
-is equilibrium at a load factor of zero or below besides that at collapse. Where it is asked as well whether the
-structure stands from its stress-free assembly (``standing``), the forces that arise there are repaired
-to prove it. Otherwise a second program looks for it with the live load reversed. If zero is not in the interval a
+The load factors under which the structure is in equilibrium form an interval. The dead load alone is carried if this
+interval contains zero. Where standing is assessed (``standing``), its forces, repaired, prove that. Otherwise a second
+program looks for the lower end of the interval, with the live load reversed. If zero is not in the interval, a
 mechanism shows how the structure falls.
 """
 

@@ -1,10 +1,11 @@
 """Conditions on interfaces that crush, taken into the associative program where its forces need them.
 
 Of every piece of an interface the condition that the forces exceed most is taken in, and the program is solved again,
-until its forces exceed none. They are then forces of the program with all conditions; its mechanism is one of that
-program too, in which what is not taken in does not move.
+until its forces exceed none. Forces and mechanism then solve the program with all conditions: pieces whose conditions
+were not taken in do not move.
 
-What is no function of the forces alone is taken in from the beginning: torsion, and pieces of interfaces side by side.
+Conditions that are no function of the forces alone are taken in from the beginning: torsion, and pieces of interfaces
+side by side.
 """
 
 from __future__ import annotations

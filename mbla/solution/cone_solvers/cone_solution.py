@@ -1,4 +1,4 @@
-"""What a cone solver is asked and what it answers, whichever library it is."""
+"""Interface of every cone solver: the program that it is given, the solution that it returns."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""When the load of a path has fallen, and not only lies low for some steps on its way to another state."""
+"""Whether the load of a path has fallen for good, or only dips for some steps."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ ELASTIC = 1.0
 
 @dataclass(frozen=True)
 class Fall:
-    """Steps in a row below the peak.
+    """Successive steps below the peak.
 
     settings : of the path
     since  : displacement of the first

@@ -49,12 +49,12 @@ HELD, WEAKER = (1e-8, 1e-5), 1e-4
 """ε over the mean stiffness of a joint, tried in turn until the step is solved, then factor on it."""
 
 FITS, SHARP = 1e-7, 1e-11
-"""Misfit of the law with which a state of points is taken where every block is carried by the forces of the law itself,
-a tenth of what a verification allows; and the one with which it is whatever is light in it."""
+"""Misfit of the law with which a state of points is accepted where the forces of the law carry every block, a tenth of
+what a verification allows; and the misfit with which it is accepted however light its blocks are."""
 
 FALL, LONG, WHOLE, LEAST = 0.1, 0.5, 0.9, 1e-8
-"""Factor on the products after a step that goes more than a share of its way, that share, the same where interfaces
-have a law of their own, whose bounds are curved, and least products over n₀²."""
+"""Factor on the products after a step of sufficient length, that length relative to the full one, the same where
+interfaces have a law of their own, whose bounds are curved, and least products over n₀²."""
 
 BALANCED, COMPATIBLE, EVEN = 1e-6, 1e-6, 30.0
 """Unbalanced force in mean loads of a block, incompatible velocity over the largest, and largest product N y over that
@@ -65,12 +65,12 @@ NEARBY = 1e-6
 have a law of their own, from the state itself: forces cut back within its bounds do not balance."""
 
 CARRIED, STANDS = 1e-6, 2e-5
-"""Share of what a block has to carry up to which it is carried without springs, and force of a spring, in mean loads of
-a block, up to which what has interfaces with a law of their own stands."""
+"""Greatest force of the springs of a structure that stands: of a block over its load, and, where interfaces have a law
+of their own, in mean loads of a block."""
 
 LIGHTER, STAYS = 0.3, 0.5
-"""Factor on the springs where the step was not solved with much weaker ones, and share of their force that is still
-there of what falls."""
+"""Factor on the springs where the step was not solved with much weaker ones, and share of their force that remains in
+a structure that falls."""
 
 
 @dataclass(frozen=True)

@@ -94,8 +94,8 @@ def centred(joints: ElasticJoints, state: StepState, sigma: float, share: float)
 
 
 FALL, QUICK, WHOLE, LEAST = 0.2, 0.01, 0.95, 1e-24
-"""Factor on the products after a direction that is gone more than half, after one that is gone nearly whole, of which
-reach, and their least over n₀²."""
+"""Factor on the products after a direction of more than half length, factor after a direction of nearly full length,
+that length, and least products over n₀²."""
 
 EXACT, EXACT_OF_LAWS, STEPS = 1e-6, 3e-5, 80
 """Misfit of the law with which the step is solved; the same where interfaces have a law of their own, with which the

@@ -12,81 +12,82 @@ from dataclasses import dataclass, field, replace
 from mbla.solution.flow.path_record import PathStep
 
 RATIOS = (0.4, 1.0)
-"""Of shear to normal stiffness, with both of which a structure must stand; the first is that of a layer of stone,
-1/(2 (1 + ν)), and of paths unless the deck says otherwise."""
+"""Shear over normal stiffness: a structure must stand with both ratios. The first is that of a layer of stone,
+1/(2 (1 + ν)), and the default of paths."""
 
 BESIDE = (0.2, 1.0)
-"""Such ratios that ``accuracy: reference`` follows besides: the load factors that they give say how far the figure
-hangs on what nobody knows of joints. On 40 structures they lie within 2 per cent of each other."""
+"""Ratios of further paths with ``accuracy: reference``: their load factors show how far the figure depends on the
+unknown stiffness of joints."""
 
 
 def ratios_beside(ratio: float) -> tuple[float, ...]:
-    """Two ratios to follow beside one."""
+    """Two ratios of further paths, other than that of the first."""
     return tuple(sorted({*BESIDE, *((RATIOS[0],) if ratio in BESIDE else ())} - {ratio}))
 
 
 def second_ratio(ratio: float) -> float:
-    """The one of both with which structures must stand that differs from a ratio."""
+    """The other of the two ratios with which structures must stand."""
     return next(other for other in reversed(RATIOS) if other != ratio)
 
 
 @dataclass(frozen=True)
 class PathSettings:
-    """Displacements are over the unit: the elastic displacement of the whole structure at the associative load.
+    """Displacements are in units of the elastic displacement of the whole structure at its associative load.
 
     ratio        : shear over normal stiffness of a joint
-    until        : displacement at which the path ends
+    until        : displacement at the end of the path
     first        : length of the first step
-    growth       : factor on the length of a step after one that was gone whole
-    longest      : length of a step over the displacement so far, at most
-    smoothing    : κ at first; the products of the law are n₀²/(κ h)
-    most_smoothing : κ at most
-    smoothed     : share of the live power that smoothing may take, and displacement from which less of it
-    dropped      : share of the peak by which the load falls where a path ends as a fall
-    counted      : unbalanced force, in mean loads of a block, up to which a step counts
+    growth       : factor on the length of a step after a step of full length
+    longest      : greatest length of a step, over the displacement so far
+    smoothing    : initial κ; the products of the law are n₀²/(κ h)
+    most_smoothing : greatest κ
+    smoothed     : greatest share of the live power for smoothing, and displacement from which it must be less
+    dropped      : fall of the load, over its peak, at which the path ends
+    counted      : greatest unbalanced force of a step that counts, in mean loads of a block
     short        : reach of a direction below which a step is blocked
-    wandering    : steps in a row out of balance, once it was reached, after which a path is stuck
-    steps        : at most
-    again        : whether a path that is lost is followed once more, with less smoothing
+    wandering    : successive unbalanced steps, after a balanced one, with which a path is stuck
+    steps        : most steps
+    again        : whether a lost path is followed once more, with less smoothing
 
-    Where it has ended:
+    The end of a path:
 
-    settled      : displacement within which no path is flat
-    back         : load factor over the least since it last rose, and over the peak, from which a path is on its way
-                   back after a dip, and not flat
-    passed       : displacement over that at which the load last rose, from which a blocked path has its peak behind it,
-                   in its second half
-    falling      : steps in a row below the peak with which a path falls, displacement after them over that of the
-                   first, and load factor over the least of them from which it is on its way back
+    settled      : displacement below which no path is flat
+    back         : load factor over the least since it last rose, and over the peak, from which a path recovers after a
+                   dip, and is not flat
+    passed       : displacement over that of the last rise, from which a blocked path in its second half has passed its
+                   peak
+    falling      : successive steps below the peak with which a path falls, displacement after them over that of the
+                   first of them, and load factor over their least from which the path recovers
 
-    The step of its peak:
+    The step of the peak:
 
-    near         : share of the peak within which another step stands for it where its own cannot be solved, and how
-                   many are tried
-    level        : share of the peak by which a later step may lie below it and take its place: where the load stays
-                   joints that hold no longer creep, and the motion is that of the fall
-    onwards      : length of the short step after it, in units, and share of the load factor within which that stands
-                   for it
+    near         : distance from the peak, relative, of other steps that may replace a step of the peak that cannot be
+                   solved, and how many of them are tried
+    level        : distance below the peak, relative, of a later step that replaces it: at a constant load, joints no
+                   longer creep in the later step, whose motion is that of the mechanism
+    onwards      : length of the short step after the peak, and greatest change of the load factor with which that step
+                   replaces the step of the peak
 
-    Other paths of it:
+    Further paths of a part:
 
-    rough        : share by which the load factor of a peak may change as its step is solved; beyond, every step is
-    solved       : growth from step to step of a path with every step solved, and length over the displacement, at most
-    spent        : factorisations of such a path at most, and those after which one that is not needed must be beyond
-                   the elastic displacement
-    lost         : shares of the peak: a path that is stuck above the one, or was brought back and lies below the other,
-                   is lost
+    rough        : change of the load factor as the step of the peak is solved, relative, beyond which the path is
+                   followed with every step solved
+    solved       : of such a path, growth from step to step and greatest length over the displacement
+    spent        : of such a path, most factorisations, and factorisations after which a path that is not needed must
+                   have passed the elastic displacement
+    lost         : a path is lost if it is stuck above the first of these shares of the peak, or was blocked and lies
+                   below the second
     same         : change of the load factor that counts as none
     measures     : load factors tried as a measure where associative flow has none
 
-    What moves alone:
+    The moving part:
 
-    steps_of_part : at most, each of which costs less
-    rings        : of blocks around those that move
-    few_points   : contact points up to which no part is worth a program of its own
-    worthwhile   : share of them from which it is not
-    grown        : times that what is followed takes in what does not carry what is passed on to it, before it is the
-                   whole
+    steps_of_part : most steps of a path of the moving part alone, which cost less
+    rings        : rings of blocks around the moving blocks
+    few_points   : contact points up to which the whole structure is followed
+    worthwhile   : share of the contact points from which the whole structure is followed
+    grown        : times that the moving part grows by blocks that do not carry its forces, before the whole structure
+                   is followed
 
     deadline     : time.monotonic() at which a path ends, or None
     watch        : called after every step

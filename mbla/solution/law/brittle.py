@@ -1,9 +1,9 @@
-"""Ties that break: they carry nothing any more as soon as they get longer than their greatest force makes them.
+"""Brittle ties: a tie breaks when its elastic force reaches its capacity, and carries nothing afterwards.
 
-A tie is a point that crushes at its capacity, so that it breaks where its trial force, that of an elastic joint without
-the law, goes beyond: n̄ − k_N v_N h > f_c; a bar, which takes both senses, as well where it falls below −f_t. Its force
-is lost at once, with the stiffness. What the structure carries where the first tie of a step breaks is found by a step
-of that length: what it would carry behind is none.
+A tie is a point that crushes at its capacity. It breaks where its trial force, the force of an elastic joint without a
+limit, exceeds the capacity: n̄ − k_N v_N h > f_c; a bar also breaks where the trial force falls below −f_t. Force and
+stiffness are lost at once. A step in which a tie breaks ends where the first tie breaks: the load beyond that point is
+not carried.
 """
 
 from __future__ import annotations

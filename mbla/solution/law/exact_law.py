@@ -1,8 +1,8 @@
-"""Forces that joints have for a motion by the law itself, without products: how far a state is from it.
+"""Forces of joints for a given motion by the law itself, without smoothing products: the misfit of a state.
 
-After a step of length h with the velocities v of the contacts they are those of the return map of the trial forces
-n̄ − k_N h v_N and t̄ − k_T h v_T. Interfaces with a law of their own are off it by how far they are from the bounds at
-which they flow.
+After a step of length h with the velocities v of the contacts, the forces are those of the return map of the trial
+forces n̄ − k_N h v_N and t̄ − k_T h v_T. The misfit of an interface with a law of its own is its distance from the bounds
+at which it flows.
 """
 
 from __future__ import annotations

@@ -1,8 +1,8 @@
 """Sums of many small products XᵀX in one sparse matrix of fixed pattern, and many small groups and triangles at once.
 
-Each block X, (…, C), belongs to C rows of the matrix. Blocks of one shape are multiplied together, and what they give
-is added up where it belongs by one map, whose places are found once. Inverses of many blocks and the matrix with blocks
-on its diagonal stand here too.
+Each block X, (…, C), belongs to C rows of the matrix. Blocks of one shape are multiplied together, and one map, made
+once, adds their products up at their places in the matrix. Inverses of many blocks and block-diagonal matrices stand
+here too.
 """
 
 from __future__ import annotations

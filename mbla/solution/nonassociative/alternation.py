@@ -46,8 +46,7 @@ cost and no bound."""
 
 @dataclass
 class Alternation:
-    """Both programs of one structure, each made when it is first asked for, held by solvers that start near
-    their last solutions.
+    """Both programs of one structure, each built on first use, with solvers that start from their last solution.
 
     slope   : (n_points,) tangent of the dilatancy angle
     records : a line for every program

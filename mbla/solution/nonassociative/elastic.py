@@ -121,7 +121,7 @@ WITHOUT_FIGURE = {Stop.UNBOUNDED: Status.UNBOUNDED, Stop.LATE: Status.TIME_LIMIT
 def _carries_the_live_load(program: Program) -> bool:
     """Whether the live load alone is carried from the stress-free assembly, by joints without strengths.
 
-    Where a load factor is so large that the dead load is nothing beside it, that is what is left of it.
+    This is the limit of a load factor so large that the dead load does not count beside it.
     """
     alone = replace(program, dead_load=program.live_load, limits=recession_cone(program.limits))
     return stress_free_state(alone).rest is not None

@@ -4,8 +4,8 @@ Forces z that balance the live load alone, A z + f_L = 0, and stay within the yi
 taken (‖T‖ ≤ μN, without cohesion and tension, none where the joint can crush) carry every load factor λ > 0: added λ
 times to forces that carry the dead load they stay within the yield conditions, because those are convex.
 
-They are found as the least forces of that kind, with a little less friction than there is so that they lie inside the
-cones, and then brought to exact equilibrium (``repaired_forces``). They are evaluated by other code:
+These forces are the least of their kind with a slightly reduced friction, so that they lie inside the cones, and are
+then repaired to exact equilibrium (``repaired_forces``). Other code evaluates them:
 :mod:`mbla.solution.verification.lock`.
 
 Without dilatancy the load factor may be bounded where friction with normality locks the structure: what is confined

@@ -79,7 +79,7 @@ def why_not_pushed(model: Model, contacts: Contacts, case: LoadCase, solution: S
 
 
 def _above_start(case: LoadCase, solution: Solution) -> Iterator[str]:
-    """That the load factor at which the curve is to end is not below the one that it begins with, in words."""
+    """In words: the end of the curve is asked for at no lower load factor than that of its beginning."""
     asked = case.pushover
     if asked is None or not case.question.multiplies or solution.mechanics is None:
         return

@@ -18,18 +18,18 @@ from mbla.solution.pushover.pose_step import PoseStep, greatest_motion, turned_o
 from mbla.solution.pushover.renewal import renewed
 
 FIRST, LEAST, LONGER, SHORTER, STEPS = 0.01, 1e-6, 1.5, 0.25, 400
-"""Length of the first step over the size of a block, its least, factors on it after a step that is made and one that is
-not, and steps at most."""
+"""Length of the first step over the size of a block, least length, factors on it after a step that succeeds and one
+that fails, and most steps."""
 
 TRIES = 3
-"""Steps in turn that are not made, before one begins without the state before."""
+"""Successive steps that fail, before a step begins without the state before."""
 
 RESTS, GRAVITY = 3e-4, 9.81
 """Motion in a step over its length from which the structure rests, and g_0, in any unit of time."""
 
 DROPPED, FAST = (0.05, 0.3), 0.3
-"""Motion of a solid over its size from which something falls, where the jump is blocked and in any; its motion, and the
-work of its weight, over the greatest, from which it is what falls."""
+"""Motion of a solid over its size from which it may fall, in a blocked jump and in any jump; motion, and work of the
+weight, over the greatest of all solids, from which a solid falls."""
 
 
 @dataclass(frozen=True)

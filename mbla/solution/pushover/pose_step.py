@@ -43,27 +43,26 @@ REGULAR, HELD = 1e-11, 1e-9
 """Springs over the stiffness of a row: that what nothing holds has a place, and what holds blocks at rest."""
 
 FIRM, NEARBY = (REGULAR, 1e-6, 1e-4), 1e-3
-"""Springs of Newton's method, in turn where a motion is longer: joints that slide at their limit may slide anywhere."""
+"""Springs of Newton's method, and motion beyond which the next is tried: joints at their limit may slide anywhere."""
 
 FARTHEST = 0.05
-"""Motion of a solid over its size, and rotation, that no direction of a step makes."""
+"""Greatest motion of a solid over its size, and greatest rotation, in a direction of a step."""
 
 ROUNDS, NEAR = 4, (5e-3, 2e-7)
-"""Poses at which ever smaller products are gone through, one from the other, and unbalanced force of the law itself
+"""Poses at which a step is solved with falling products, one after the other, and unbalanced force of the law itself
 from which Newton's method goes on, at the first pose and at the others."""
 
 WIDE, INSIDE = 0.1, 0.9
-"""Products with which a smoothed step begins afresh, over mean force times size; share of its limit that shear then has
-at most."""
+"""Products of a smoothed step that begins afresh, over mean force times size; greatest shear over its limit there."""
 
 OVERLAP, LATER, LEAST, DIRECTIONS = 0.1, 1e-3, 1e-13, 30
-"""Products with which a step that is solved begins over mean force times elastic overlap, or times a share of the live
-displacement where that is more; at the poses that follow, and at last; directions at most."""
+"""Products of a step that is solved, over mean force times the elastic overlap or a share of the live displacement,
+whichever is more: at the first pose, at later poses, at the end; most directions."""
 
 LOOSE, CLOSED, REACHED, FEW, CLOSE, EVEN = 1e-3, 0.1, 0.5, 5, 3.0, 30.0
-"""Unbalanced force with which a smoothed step is done, openings and slips over elastic overlap that do not fit its
-motion, reach of its last direction, directions from the state before, mean product over σ from which it is smoothed as
-wanted, and greatest with which it is even."""
+"""A smoothed step is done with this unbalanced force, misfit of openings and slips over the elastic overlap, and reach
+of its last direction; directions from the state before; greatest mean product, and greatest product, over
+σ."""
 
 
 @dataclass(frozen=True)

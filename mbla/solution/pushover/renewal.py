@@ -1,4 +1,4 @@
-"""Contacts found anew on the way, what joints of new ones remember, and what has nothing to stand on any more."""
+"""Renewal of contacts during a pushover: new contact points, their history, and bodies that have lost their support."""
 
 from __future__ import annotations
 

@@ -20,20 +20,20 @@ if TYPE_CHECKING:
     from mbla.solution.pushover.way import Way
 
 AT_END, SEARCHES, FURTHER = 1e-6, 12, 1.5
-"""Where a row is: distance from it over what it is, steps made to find it, and share of a step that they go at most."""
+"""Search for a row: its tolerance, relative; most steps; greatest length of each, over a step of the way."""
 
 MISSED = 1e-4
-"""Distance of a row from where it is to be, over the step asked for, from which it is another one."""
+"""Distance of a row from its displacement, over the step of the deck, from which it is not that row."""
 
 SUDDEN, NOTHING, BLOCKED = 0.2, 1e-6, 100.0
-"""Load factor over the greatest from which it does not fall to its end in one step: the structure falls there; over the
-one at which the structure starts to move, that is nothing; and from which something blocks its way."""
+"""Loss of load factor in the last step, over the greatest so far, with which the structure falls; load factor over that
+of the first movement that counts as nothing, and load factor over it above which something blocks the motion."""
 
 RISEN = 0.99
-"""Load factor over the one at which the structure starts to move, from which it has risen before it falls."""
+"""Load factor over that of the first movement, above which it has risen before it falls."""
 
 HIGHER = 1.001
-"""Load factor over those of two rows from which there is one between them."""
+"""Load factor over those of two neighbouring rows, above which a row of the peak stands between them."""
 
 
 @dataclass

@@ -43,14 +43,14 @@ LONGER, LONG, OF_WAY = {1: 2.0, 2: 2.0, 3: 1.4, 4: 1.4}, 1.0, 0.25
 """A step over the one before, by directions that took, and with more; and over the whole way so far, at most."""
 
 LARGEST = 0.02
-"""Greatest motion of a solid over its size in a step, and rotation."""
+"""Greatest motion of a solid over its size, and greatest rotation, in a step."""
 
 SHORTER, SHARP, TRIES = 0.5, 2, 4
-"""A step over one that is blocked; blocked steps in turn after which one begins afresh where the state before does not
-lead to its end, and from which κ is SOFTEST; the structure jumps after as many more."""
+"""Length of a step over that of the blocked one before; successive blocked steps after which a step begins afresh where
+it cannot be finished from the state before, and after which κ is SOFTEST; after as many more the structure jumps."""
 
 SMOOTHING, SOFT, SOFTEST = 50.0, 5.0, 0.5
-"""κ, its most where SHARP steps in turn were blocked, and where TRIES were."""
+"""κ: initial, greatest after SHARP blocked steps, greatest after TRIES blocked steps."""
 
 EASY, EASIER = 3, 1.5
 """Directions of a step after which κ rises again, and by how much."""
@@ -59,14 +59,14 @@ AT_BREAK = 0.05
 """Step in which a tie breaks over the one before, at most."""
 
 LOST = 0.1
-"""Load factor that a jump takes at most, over that at which the structure starts to move; with more the curve ends."""
+"""Greatest loss of load factor in a jump, over the load factor of the first movement; beyond, the curve ends."""
 
 JUMPS, LESS = 3, 0.2
-"""Jumps in turn that may come to nothing, and the step of one over that of the one before."""
+"""Successive jumps that may fail, and step of a jump over that of the jump before."""
 
 TAKEN = 0.2
-"""Weight of falling blocks over that of the control point, or of what moves at first with a support that gives way,
-from which the curve is at its end."""
+"""Weight of falling blocks over that of the blocks of the control point, or over that of the blocks that follow a
+settling support, at which the curve ends."""
 
 
 @dataclass
@@ -217,7 +217,7 @@ class Way:
 
     @property
     def settles(self) -> bool:
-        """Whether a support gives way."""
+        """Whether a support settles."""
         return self.structure.case.settlement is not None
 
     @property
@@ -233,7 +233,7 @@ class Way:
         return None if solved is None or not solved.fit else row_after(sharp, solved, place)
 
     def is_over(self, fallen: BoolArray) -> bool:
-        """Whether too much has fallen, (n_solids,): of the control point, or of what is carried by what gives way."""
+        """Whether too much has fallen, (n_solids,): of the control point, or of the blocks on a settling support."""
         blocks = fallen[self.structure.solids.label]
         if not self.settles:
             return float(self.control.weights[blocks[self.control.blocks]].sum()) > TAKEN
@@ -241,7 +241,7 @@ class Way:
 
     @cached_property
     def _carried(self) -> FloatArray:
-        """Masses of what moves at first with a support that gives way, without it, (n_blocks,)."""
+        """Masses of the blocks that follow a settling support in the first movement, (n_blocks,)."""
         speed = np.linalg.norm(self.first.mechanism[:, :3], axis=1)
         masses = np.where(speed > MOVES * speed.max(), self.structure.model.blocks.masses, 0.0)
         masses[self.control.blocks] = 0.0

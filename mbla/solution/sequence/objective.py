@@ -1,10 +1,10 @@
 """The least or the greatest value of a force, as one load factor or several (:mod:`mbla.model.objective`).
 
 The load factor counts from a value R0 that the force has in some state that carries the loads: that of the least
-contact forces, in the sense of ½ ‖x‖². Near collapse hardly any forces carry the loads, and none may be found; where
-joints crush those found may be none. Whether the loads are carried at all is then asked by taking them away step by
-step, which proves it where they are not. If they are, R0 lies so high that the end that is sought is below it, and
-once that is known from near it, where fewer digits are lost.
+contact forces, in the sense of ½ ‖x‖². Near collapse hardly any forces carry the loads, and the program may find
+none; where joints crush, its forces may be invalid. Then the loads are taken away step by step, which proves whether
+they are carried. If they are, R0 is first set far above the force, and a second program with R0 near the force that the
+first one found loses fewer digits.
 """
 
 from __future__ import annotations

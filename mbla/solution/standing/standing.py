@@ -6,8 +6,8 @@ walls are pressed together. Coupled rigid-block analysis rejects such states (Ka
 doi:10.1016/j.cad.2022.103216); limit analysis does not, and reports a load factor that means nothing. Here equilibrium
 has to arise from the assembly without stress: by the gravity step of elastic joints
 (:mod:`mbla.solution.flow.gravity_step`), at two ratios of their stiffness. Where the weak springs that hold the blocks
-carry a share of the weight it falls. What proves standing are the forces and the displacements from which they follow
-by the law of elastic joints that remember nothing.
+carry a share of the weight, the structure falls. The proof of standing are forces, and the displacements from which
+these forces follow by the law of elastic joints without history.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """Least: the state of rigid joints of the least load factor that a search found.
 
-It is accepted where its own forces balance the loads at its load factor, keep to the yield conditions and fit its own
-mechanism by the flow rule claimed, of rigid joints. That none lies below is claimed by nobody.
+The state is accepted where its forces balance the loads at its load factor, lie within the yield conditions and fit
+its mechanism by the flow rule of rigid joints. Nothing claims that no lower state exists.
 """
 
 from __future__ import annotations
