@@ -102,5 +102,5 @@ class Force(Reaction):
         return (
             (self.what, f"{significant(value)} {unit}"),
             ("its bounds", f"{interval(bounds)} {unit}"),
-            ("load factor counts", f"how far {away} {start} {unit}, in {size} {unit}: the loads"),
+            ("load factor", f"distance of the force {away} {start} {unit} over {size} {unit}, the loads"),
         )

@@ -169,5 +169,5 @@ class Reaction(Question):
             *own,
             ("associative, its bounds", f"{interval(bounds)} {unit}"),
             ("one at rest", f"{significant(settlement.reference)} {unit}   (many may be possible)"),
-            ("load factor counts", f"its loss, in {significant(settlement.unit)} {unit}: {of}"),
+            ("load factor", f"loss of reaction over {significant(settlement.unit)} {unit}, {of}"),
         )

@@ -106,7 +106,7 @@ def digits(value: float) -> str:
 PROVED = (
     "Forces that balance the loads within the strengths of the joints reach each end; a mechanism in which the cut "
     "opens shows that none go beyond. Every state of the structure lies between, whatever the flow rule: forces in "
-    "joints are not unique, and nothing here says which of them are there."
+    "joints are not unique, and which of them act is not decided."
 )
 
 

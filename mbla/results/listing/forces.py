@@ -84,14 +84,15 @@ def lock_lines(model: Model, contacts: Contacts, lock: FloatArray) -> list[str]:
 
 
 def enough_lines(case: CaseResult, enough: Enough) -> list[str]:
-    """Which blocks can be left out; nothing where every free block moves or the case has no result."""
+    """The reduced model with the same load factor; nothing where every free block moves or the case has no result."""
     resting = len(enough.bearing) + len(enough.left_out)
     if result_of(case) is None or not resting or not len(enough.moving):
         return []
     return sentence(
-        f"Relevant to this result: {counted(len(enough.moving), 'moving block')} and "
-        f"{counted(len(enough.interfaces), 'interface')} on them. With the {counted(resting, 'stationary free block')} "
-        f"fixed ({len(enough.left_out)} touch no moving block and can be removed) it has the same load factor."
+        f"Reduced model: {counted(len(enough.moving), 'moving block')} with "
+        f"{counted(len(enough.interfaces), 'interface')}. Fixing the {counted(resting, 'stationary free block')} leaves "
+        f"the load factor unchanged; "
+        f"{len(enough.left_out)} of them touch no moving block and can be removed."
     )
 
 
@@ -100,7 +101,7 @@ def freedom_lines(contacts: Contacts, case: CaseResult, freedom: ForceFreedom | 
     if result_of(case) is None or not len(contacts):
         return []
     if isinstance(freedom, str):
-        text = f"How far the contact forces are unique was not determined, as {freedom}."
+        text = f"The number of unique contact forces was not determined, as {freedom}."
     else:
         text = (
             f"Degree of static indeterminacy at this load factor, in this mechanism: at most {freedom.degree}; the "

@@ -74,7 +74,7 @@ def settings_lines(results: Results) -> list[str]:
     """Units and the settings in effect."""
     units = results.model.units
     lines = heading("Units and analysis settings")
-    lines += entry("units", f"{units.length}, {units.force}, {units.mass}, s; angles of joints as tangents")
+    lines += entry("units", f"{units.length}, {units.force}, {units.mass}, s; angles given as tan φ")
     return lines + [line for name, value in results.settings.items() for line in entry(name, value)]
 
 

@@ -10,9 +10,9 @@ from mbla.results.results import CaseResult
 from mbla.solution.further.sensitivity.slopes import Side, Slope
 from mbla.solution.thresholds import SOLVED_RESIDUAL
 
-OF_ASSOCIATIVE = "Slopes by the parameters of the deck are of the associative load factor, {}"
-OF_ANOTHER = ": the load factor shown is another one, and has no slopes of its own"
-THE_SAME = ", which is the load factor shown as well"
+OF_ASSOCIATIVE = "Sensitivities to the parameters of the deck are those of the associative load factor, {}"
+OF_ANOTHER = ": the load factor of this case is another one, without sensitivities"
+THE_SAME = ", which is the load factor of this case"
 MEANING = (
     "Elasticity: relative change of the load factor over that of the parameter. Where several mechanisms or fields of "
     "force give the same load factor, the slopes to both sides differ, and the one given lies between them."
