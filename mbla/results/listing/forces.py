@@ -88,11 +88,10 @@ def enough_lines(case: CaseResult, enough: Enough) -> list[str]:
     resting = len(enough.bearing) + len(enough.left_out)
     if result_of(case) is None or not resting or not len(enough.moving):
         return []
+    moving, rest = counted(len(enough.moving), "moving block"), counted(resting, "stationary free block")
     return sentence(
-        f"Reduced model: {counted(len(enough.moving), 'moving block')} with "
-        f"{counted(len(enough.interfaces), 'interface')}. Fixing the {counted(resting, 'stationary free block')} leaves "
-        f"the load factor unchanged; "
-        f"{len(enough.left_out)} of them touch no moving block and can be removed."
+        f"Reduced model: {moving} with {counted(len(enough.interfaces), 'interface')}. Fixing the {rest} leaves the "
+        f"load factor unchanged; {len(enough.left_out)} of them touch no moving block and can be removed."
     )
 
 
