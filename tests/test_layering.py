@@ -39,19 +39,27 @@ DOORS = {
     "dask": "sweeps/engine/cluster.py",
     "distributed": "sweeps/engine/cluster.py",
 }
-KINDS_IN = {"deck/sections/blocks.py": "mbla.model.blocks"}
-"""the exception to the order of stages: the one file of the deck that asks for the kinds of things that it is made of,
-and where they are at home"""
+KINDS_IN = {"deck/sections/blocks.py": "mbla.model.blocks", "deck/sections/loads.py": "mbla.model.loads"}
+"""the exception to the order of stages: the files of the deck that ask for the kinds of things that it is made of, and
+where they are at home"""
 GIVEN_TO_KINDS = {
     "deck/__init__.py",
     "deck/expressions.py",
     "deck/kinds.py",
+    "deck/load_key.py",
     "deck/positions.py",
     "deck/quantities.py",
     "deck/section.py",
     "deck/sections/__init__.py",
+    "deck/sections/any_load.py",
+    "deck/sections/assessment.py",
+    "deck/sections/contacts.py",
+    "deck/sections/fill.py",
     "deck/sections/geometry_file.py",
     "deck/sections/placement.py",
+    "deck/sections/selectors.py",
+    "deck/sections/supports.py",
+    "deck/sections/vehicles.py",
     "deck/suggestions.py",
     "deck/text/__init__.py",
     "deck/text/sources.py",

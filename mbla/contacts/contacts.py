@@ -12,6 +12,9 @@ from mbla.contacts.outlines.overlay import Overlays, in_space
 from mbla.contacts.outlines.refine import InterfacePoints
 from mbla.deck.text.tree import KeyPath
 from mbla.errors import Notice, Refusal
+from mbla.process.imports import import_scipy
+
+import_scipy()  # before the stages that compute
 
 
 @dataclass(frozen=True)

@@ -13,6 +13,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Field
 
+from mbla.deck.load_key import NAMED
 from mbla.deck.quantities import Count, Integer, Line, Name, Number, ParameterName, PositiveNumber, Switch
 from mbla.deck.section import Section, given, rule
 from mbla.deck.sections.analysis import AnalysisSection
@@ -21,7 +22,7 @@ from mbla.deck.sections.contacts import ContactsSection
 from mbla.deck.sections.fill import Fill
 from mbla.deck.sections.find import FindSection
 from mbla.deck.sections.load_cases import LoadCaseSection
-from mbla.deck.sections.loads import LIVE_ONLY, AddedMass, Load
+from mbla.deck.sections.loads import AddedMass, Load
 from mbla.deck.sections.materials import JointLaw, Material
 from mbla.deck.sections.selectors import Selector
 from mbla.deck.sections.strengthen import StrengthenSection
@@ -183,11 +184,10 @@ def named_loads(deck: DeckContent) -> Iterator[Finding]:
     """Named loads can be added up: none travels or tilts, and none comes back to itself."""
     for name, loads in deck.loads.items():
         for number, load in enumerate(loads):
-            for kind in given(load, LIVE_ONLY):
-                yield Finding(
-                    "load-misplaced", "must stand in the live loads of a load case itself", "loads", name, number, kind
-                )
-    below = {name: [load.loads for load in loads if load.loads is not None] for name, loads in deck.loads.items()}
+            if load.facts.live_only:
+                words = "must stand in the live loads of a load case itself"
+                yield Finding("load-misplaced", words, "loads", name, number, load.kind)
+    below = {name: [load.chosen for load in loads if load.kind == NAMED] for name, loads in deck.loads.items()}
     try:
         TopologicalSorter(below).prepare()
     except CycleError as error:
@@ -209,5 +209,5 @@ def expectations_of_kinds(deck: DeckContent) -> Iterator[Finding]:
         case = deck.load_cases.get(name)
         for key, kind in (("angle", "tilt"), ("position", "travel")):
             live = [] if case is None or getattr(item, key) is None else (case.live or [])
-            if live and not any(getattr(load, kind) is not None for load in live):
+            if live and not any(load.kind == kind for load in live):
                 yield Finding("key-of-another-choice", f"applies to load cases with {kind} only", "expected", name, key)

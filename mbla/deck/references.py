@@ -13,7 +13,9 @@ from dataclasses import dataclass
 from typing import Any
 
 from mbla.deck.kinds import in_order
+from mbla.deck.load_key import NAMED, loads_that
 from mbla.deck.sections.blocks import ITEM_KINDS
+from mbla.deck.sections.loads import LOAD_KEYS
 from mbla.deck.sections.materials import BUILT_IN
 from mbla.deck.sections.selectors import GROUND
 from mbla.deck.suggestions import unknown
@@ -76,9 +78,14 @@ REFERENCES = (
         for place in (*SELECTORS, "groups.*")
         for form in ("", ".group", ".#", ".#.group")
     ),
-    *(Reference(f"{loads}.#.loads", "load") for loads in LOADS),
+    *(Reference(f"{loads}.#.{NAMED}", "load") for loads in LOADS),
     *(Reference(f"{loads}.#.through", "fill") for loads in LOADS),
-    *(Reference(f"{loads}.#.{place}", "vehicle") for loads in LOADS for place in ("travel.vehicle", "vehicle.name")),
+    *(
+        Reference(f"{loads}.#.{kind.name}.{key}", what)
+        for loads in LOADS
+        for kind in in_order(LOAD_KEYS)
+        for key, what in kind.names.items()
+    ),
 )
 
 
@@ -174,7 +181,7 @@ SIDE_FILES = (
     *(f"blocks.#.{kind.name}.{key}" for kind in in_order(ITEM_KINDS) for key in kind.files),
     "supports.#.surface.file",
     "contacts.table",
-    *(f"{loads}.#.table" for loads in LOADS),
+    *(f"{loads}.#.{key}" for loads in LOADS for key in loads_that(lambda kind: kind.is_file)),
 )
 """Key paths, in which ``#`` stands for every item and ``*`` for every key."""
 

@@ -139,7 +139,7 @@ def unusual_values(tree: Tree, content: DeckContent, units: Units) -> Iterator[N
             if remark:
                 yield _notice(tree, (*path, key), remark)
     for path, load in _loads(content):
-        if load.acceleration is not None and math.hypot(*load.acceleration) > MOST_ACCELERATION:
+        if load.kind == "acceleration" and math.hypot(*load.chosen) > MOST_ACCELERATION:
             yield _notice(tree, (*path, "acceleration"), "is in units of g = 9.81 m/s^2")
     for path, spectrum in _spectra(content):
         if spectrum.table is not None and spectrum.table[0][1] > MOST_GROUND:
@@ -162,8 +162,8 @@ def _places(content: DeckContent) -> Iterator[tuple[KeyPath, str, Any]]:
         if tie.plate is not None:
             yield ("ties", number, "plate"), "plate", tie.plate
     for path, load in _loads(content):
-        if load.pressure is not None:
-            yield (*path, "pressure"), "pressure", load.pressure
+        if load.kind == "pressure":
+            yield (*path, "pressure"), "pressure", load.chosen
     for name, case in content.load_cases.items():
         if case.pushover is not None:
             yield ("load_cases", name, "pushover"), "pushover", case.pushover
@@ -190,9 +190,9 @@ def _spectra(content: DeckContent) -> Iterator[tuple[KeyPath, SpectrumSection]]:
 def unusual_gravity(tree: Tree, content: DeckContent, units: Units) -> Iterator[Notice]:
     """Gravity far from 9.81 m/s2: mostly a deck in mm whose gravity is still in m."""
     for path, load in _loads(content):
-        if load.gravity is None or load.gravity == "none" or not any(load.gravity):
+        if load.kind != "gravity" or load.chosen == "none" or not any(load.chosen):
             continue
-        size = math.hypot(*load.gravity) * METRES[units.length]
+        size = math.hypot(*load.chosen) * METRES[units.length]
         if abs(size - STANDARD_GRAVITY) > GRAVITY_TOLERANCE * STANDARD_GRAVITY:
             fault = tree.fault((*path, "gravity"), Message("gravity-unusual", f"is {size:.4g} m/s^2, not 9.81"))
             words = f"{fault}: its numbers are in {units.unit('acceleration')}"

@@ -15,17 +15,16 @@ import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.deck.deck import Deck
-from mbla.deck.section import EXACTLY_ONE, given
 from mbla.deck.sections.load_cases import LoadCaseSection
-from mbla.deck.sections.loads import Load
 from mbla.deck.sections.supports import SymmetryPlane
 from mbla.deck.text.tree import KeyPath
 from mbla.errors import DeckError, Finding, Notice
 from mbla.model.fill import Fill
 from mbla.model.guides import Guides
 from mbla.model.join import halves_joined, polyhedra_of
-from mbla.model.loads.gravity import vector_of, with_gravity
-from mbla.model.loads.load_kind import entries_of
+from mbla.model.loads.entry import entries_of
+from mbla.model.loads.gravity import with_gravity
+from mbla.model.loads.load_kind import load_kind
 from mbla.model.model import Ground, LoadCase, Model
 from mbla.model.selectors import Roster, check_overrides, select_blocks
 from mbla.model.settlement import with_reference
@@ -39,10 +38,6 @@ from mbla.model.ties.ties import OUTSIDE, Ties, joined_ties
 from mbla.model.transform import AffineMap, moved, reflection
 from mbla.model.wording import counted, named
 from mbla.questions.reaction import Settlement
-
-ON_MASSES = ("gravity", "acceleration")
-AT_PLACES = ("force", "moment", "line", "pressure", "vehicle")
-"""kinds of loads that have to lie in the plane, and those of which images are taken"""
 
 UNNAMED = "the plane of symmetry"
 """in words"""
@@ -85,22 +80,22 @@ def _loads_across(deck: Deck, section: LoadCaseSection, path: KeyPath, mirror: M
     dead = entries_of(section.dead or [], (*path, "dead"), deck.content.loads)
     live = entries_of(section.live or [], (*path, "live"), deck.content.loads)
     for entry in (*with_gravity(dead, path, deck.units), *live):
-        kind = given(entry.load, EXACTLY_ONE[Load])[0]
+        kind = load_kind(entry) if entry.adds_up else None
         if entry.load.through is not None:
             message = "a load that spreads in fill may do so across a plane of symmetry: give the whole structure"
             yield Finding("symmetry-broken", message, *entry.path, "through")
-        if kind in AT_PLACES:
+        if kind is not None and kind.mirrored:
             continue
         message = f"is no load that can be mirrored about {mirror.label}: give the whole structure"
-        if kind in ON_MASSES:
-            value = np.array(vector_of(entry.load) if kind == "gravity" else entry.load.acceleration)
+        if kind is not None and kind.vector is not None:
+            value = np.array(kind.vector(entry.value))
             if abs(float(value @ mirror.normal)) <= ACROSS * np.abs(value).max():
                 continue
             plane = mirror.label if mirror.label == UNNAMED else f"{UNNAMED} {mirror.label}"
             message = (
                 f"acts across {plane}: the other half would have to be pushed the other way; give the whole structure"
             )
-        yield Finding("symmetry-broken", message, *entry.path, kind)
+        yield Finding("symmetry-broken", message, *entry.path, entry.kind)
 
 
 def _cannot_mirror(deck: Deck, model: Model, mirror: Mirror, path: KeyPath) -> Iterator[Finding]:

@@ -122,7 +122,7 @@ def named_loads(scene: Scene, _: Solved) -> Scene | None:
     named, cases = dict(content.loads), {}
     for name, case in content.load_cases.items():
         lists = {side: loads for side in ("dead", "live") if (loads := getattr(case, side))}
-        both = {side: [Load(loads=f"{name}_{side}_{part}") for part in range(2)] for side in lists}
+        both = {side: [Load.model_validate({"loads": f"{name}_{side}_{part}"}) for part in range(2)] for side in lists}
         for side, loads in lists.items():
             for part, share in enumerate(PARTS_OF_A_LOAD):
                 shared = [load.model_copy(update={"factor": share * load.factor}) for load in loads]
@@ -135,7 +135,7 @@ def named_loads(scene: Scene, _: Solved) -> Scene | None:
 
 
 def _cannot_be_shared(case: LoadCaseSection) -> bool:
-    return any(load.travel is not None or load.tilt is not None for load in case.live or [])
+    return any(load.facts.live_only for load in case.live or [])
 
 
 def heavier(scene: Scene, _: Solved) -> Scene:

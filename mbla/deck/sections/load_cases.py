@@ -7,10 +7,11 @@ from typing import Annotated, TypeAlias
 
 from pydantic import ConfigDict, Discriminator, Field, Tag
 
+from mbla.deck.load_key import live_only
 from mbla.deck.quantities import Direction, Integer, Number, PositiveLength
 from mbla.deck.section import Section, exactly_one_of, given, one_of, rule, shape
 from mbla.deck.sections.assessment import AssessmentSection
-from mbla.deck.sections.loads import LIVE_ONLY, Load
+from mbla.deck.sections.loads import Load
 from mbla.deck.sections.objective import ObjectiveSection
 from mbla.deck.sections.selectors import Selector
 from mbla.deck.sections.supports import Turn
@@ -195,30 +196,30 @@ def what_is_asked(case: LoadCaseSection) -> Iterator[Finding]:
         words = "cannot go with objective, whose answer is a force: make another load case of it"
         yield Finding("objective-not-possible", words, key)
     for number, load in enumerate(case.live or []):
-        for kind in given(load, LIVE_ONLY):
+        if load.facts.live_only:
             words = "cannot go with objective, which is sought at one place of each load: give it as force"
-            yield Finding("objective-not-possible", words, "live", number, kind)
+            yield Finding("objective-not-possible", words, "live", number, load.kind)
 
 
 @rule(LoadCaseSection)
 def load_case(case: LoadCaseSection) -> Iterator[Finding]:
     """What tilts or travels is live, and there is one of it."""
     for number, load in enumerate(case.dead or []):
-        for kind in given(load, LIVE_ONLY):
-            yield Finding("load-misplaced", "must be a live load", "dead", number, kind)
+        if load.facts.live_only:
+            yield Finding("load-misplaced", "must be a live load", "dead", number, load.kind)
     if case.pushover is not None:
         yield from _not_pushed(case)
     if case.assessment is not None:
         yield from _not_assessed(case, case.assessment)
-    special = [(number, kind) for number, load in enumerate(case.live or []) for kind in given(load, LIVE_ONLY)]
+    live = list(enumerate(case.live or []))
+    special = [(number, load.facts) for number, load in live if load.facts.live_only]
     for number, kind in special[1:]:
-        words = f"only one of {listed(LIVE_ONLY, 'and')} in a load case: make another load case"
-        yield Finding("one-of-several", words, "live", number, kind)
-    if len(special) == 1 and special[0][1] == "tilt" and len(case.live or []) > 1:
-        other = next(number for number in range(len(case.live or [])) if number != special[0][0])
-        yield Finding(
-            "load-misplaced", "cannot go with tilt, whose answer is an angle: make it a dead load", "live", other
-        )
+        words = f"only one of {listed(live_only(), 'and')} in a load case: make another load case"
+        yield Finding("one-of-several", words, "live", number, kind.name)
+    if len(special) == 1 and len(live) > 1 and (why := special[0][1].alone):
+        other = next(number for number, _ in live if number != special[0][0])
+        words = f"cannot go with {special[0][1].name}, {why}: make it a dead load"
+        yield Finding("load-misplaced", words, "live", other)
 
 
 def _not_pushed(case: LoadCaseSection) -> Iterator[Finding]:
@@ -228,7 +229,7 @@ def _not_pushed(case: LoadCaseSection) -> Iterator[Finding]:
     asked = None if case.pushover is None else case.pushover.position
     if asked is None:
         return
-    counts = [load.travel.positions for load in case.live or [] if load.travel is not None]
+    counts = [load.chosen.positions for load in case.live or [] if load.kind == "travel"]
     if not counts:
         words = "goes with a load that travels: leave it out"
         yield Finding("key-of-another-choice", words, "pushover", "position")
@@ -239,8 +240,8 @@ def _not_pushed(case: LoadCaseSection) -> Iterator[Finding]:
 
 def _not_assessed(case: LoadCaseSection, assessment: AssessmentSection) -> Iterator[Finding]:
     live = case.live or []
-    single = len(live) == 1 and live[0].acceleration is not None and live[0].on is None and live[0].pattern is None
-    if not single or live[0].acceleration is None or live[0].acceleration[2] != 0.0:
+    single = len(live) == 1 and live[0].kind == "acceleration" and live[0].on is None and live[0].pattern is None
+    if not single or live[0].chosen[2] != 0.0:
         words = "needs one live load, a horizontal acceleration of all blocks, without on and pattern"
         yield Finding("assessment-not-possible", words, "assessment")
     if assessment.spectra.SLC is not None and case.pushover is None:

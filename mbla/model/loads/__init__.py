@@ -1,5 +1,10 @@
-"""Loads of a case as forces and moments on blocks, about their centroids; one kind of load per file."""
+"""Loads as forces and moments on blocks, about their centroids: one kind a file, which registers it at its foot.
 
-from mbla.model.loads.kinds import LOAD_KINDS as LOAD_KINDS
-from mbla.model.loads.load_case import build_load_cases as build_load_cases
-from mbla.model.loads.load_kind import LoadSite as LoadSite
+All files of this folder are imported here, so that a new kind is a file and nothing else.
+"""
+
+from importlib import import_module
+from pkgutil import iter_modules
+
+for _file in iter_modules(__path__):
+    import_module(f"{__name__}.{_file.name}")

@@ -11,15 +11,17 @@ from functools import cached_property
 import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
-from mbla.deck.sections.loads import PARALLEL
 from mbla.deck.text.tree import KeyPath
 from mbla.errors import Finding, Notice
+from mbla.model.applied_load import sum_on_blocks, wrenches_of
 from mbla.model.fill import FillBody
 from mbla.model.loads.blocks_under import Below
 from mbla.model.loads.dispersal import Spread, beside, emerging, spread
-from mbla.model.loads.load_kind import LoadSite, sum_on_blocks, wrenches_of
+from mbla.model.loads.load_site import LoadSite
 from mbla.model.wording import named, vector
 
+PARALLEL = 1e-6
+"""sine of the angle between a line and the direction to its blocks, up to which they are parallel"""
 UPRIGHT = 1e-9
 """horizontal component relative to a force, a line or a path, up to which it is none"""
 NEAR = 1e-3

@@ -7,28 +7,66 @@ the joint of two blocks each carries half. On fill it spreads to both sides (:mo
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import numpy as np
+from pydantic import Field
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
-from mbla.deck.sections.loads import LineLoad, Load
+from mbla.deck.load_key import register_load
+from mbla.deck.quantities import Direction, ForcePerLength, Point
+from mbla.deck.section import Section, rule
 from mbla.deck.text.tree import KeyPath
 from mbla.errors import Finding
+from mbla.model.applied_load import AppliedLoad, sum_on_blocks, wrenches_of
 from mbla.model.loads.blocks_under import Below
 from mbla.model.loads.dispersal import Spread
-from mbla.model.loads.landing import Landing, level
-from mbla.model.loads.load_kind import AppliedLoad, LoadSite, sum_on_blocks, wrenches_of
+from mbla.model.loads.entry import Entry
+from mbla.model.loads.landing import PARALLEL, Landing, level
+from mbla.model.loads.load_kind import LoadKind
+from mbla.model.loads.load_site import LoadSite
 from mbla.model.wording import counted, vector
 
 
-def line_load(load: Load, blocks: IntArray | None, path: KeyPath, site: LoadSite) -> AppliedLoad | None:
+class LineLoad(Section):
+    """A load along a straight line, carried by the blocks that lie under it."""
+
+    from_: Point = Field(alias="from", description="beginning of the line")
+    to: Point = Field(description="end of the line")
+    force_per_length: tuple[ForcePerLength, ForcePerLength, ForcePerLength] = Field(
+        description="force per length of the line; it acts where the line is drawn, with its moment"
+    )
+    towards: Direction = Field((0.0, 0.0, -1.0), description="direction in which the blocks under the line are sought")
+
+
+@rule(LineLoad)
+def sound_line(line: LineLoad) -> Iterator[Finding]:
+    """A line has a length, and its blocks lie aside of it."""
+    run = [end - begin for begin, end in zip(line.from_, line.to, strict=True)]
+    if not any(run):
+        yield Finding("degenerate-line", "must not be the point from: the line has no length", "to")
+    elif _parallel(run, line.towards):
+        yield Finding(
+            "degenerate-line", "must not run along the line: give the direction in which its blocks lie", "towards"
+        )
+
+
+def _parallel(a: list[float], b: tuple[float, ...]) -> bool:
+    """Whether two vectors have one direction, or opposite ones; free of overflow."""
+    u, v = ([each / max(map(abs, vector)) for each in vector] for vector in (a, b))
+    cross = (u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0])
+    return sum(each**2 for each in cross) <= PARALLEL**2 * sum(each**2 for each in u) * sum(each**2 for each in v)
+
+
+def line_load(entry: Entry, blocks: IntArray | None, site: LoadSite) -> AppliedLoad | None:
     """A line load on all blocks under it, or on those of them that are selected, (n,)."""
-    assert load.line is not None  # what makes it this kind
-    line, chosen = load.line, np.arange(len(site.blocks)) if blocks is None else blocks
-    if load.through is not None and load.through not in site.fill:
+    line: LineLoad = entry.value
+    name, chosen = entry.load.through, np.arange(len(site.blocks)) if blocks is None else blocks
+    if name is not None and name not in site.fill:
         return None  # its blocks could not be built
     begin, end = np.array(line.from_), np.array(line.to)
-    through = None if load.through is None else site.fill[load.through]
-    landing = Landing(Below(site.blocks, np.array(line.towards), chosen), through, (*path, "line"), site)
+    through = None if name is None else site.fill[name]
+    landing = Landing(Below(site.blocks, np.array(line.towards), chosen), through, (*entry.path, "line"), site)
     words = (
         f"line load {vector(line.force_per_length)} {site.units.force}/{site.units.length} "
         f"from {vector(line.from_)} to {vector(line.to)} {site.units.length}"
@@ -80,3 +118,16 @@ def _refuse_bare(line: LineLoad, ends: FloatArray, bare: BoolArray, path: KeyPat
         "shorten the line, or look for blocks in another direction with towards"
     )
     site.refuse(Finding("load-beside-structure", message, *path))
+
+
+register_load(
+    LoadKind(
+        name="line",
+        section=LineLoad,
+        description="load along a line",
+        after="moment",
+        takes=("through", "follows"),
+        build=line_load,
+        mirrored=True,
+    )
+)

@@ -8,36 +8,76 @@ integrate them exactly (Strang and Fix 1973, An Analysis of the Finite Element M
 
 The pressure acts on the free parts of faces, unless all of them are asked for: not where another block lies against
 them, nor on the ground, whether or not the contact of the two carries anything there.
-
-Each face is a polygon in coordinates of its own plane. The faces of other blocks that lie against it are taken away
-from it; the rest is divided into triangles.
 """
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
-from typing import Any
+from collections.abc import Iterator
+from typing import Literal
 
 import numpy as np
+from pydantic import Field
 
-from mbla.arrays import BoolArray, FloatArray, IntArray, row_of_item
-from mbla.deck.sections.loads import Load, PressureLoad
+from mbla.arrays import FloatArray, IntArray
+from mbla.deck.load_key import register_load
+from mbla.deck.quantities import Box, Direction, FacingAngle, Length, Stress, UnitWeight, WallFrictionAngle
+from mbla.deck.section import Section, rule
 from mbla.deck.text.tree import KeyPath
 from mbla.errors import Finding
-from mbla.model.loads.load_kind import AppliedLoad, LoadSite, sum_on_blocks, wrenches_of
-from mbla.model.model import Ground
+from mbla.model.applied_load import AppliedLoad, sum_on_blocks, wrenches_of
+from mbla.model.loads.entry import Entry
+from mbla.model.loads.face_parts import FaceParts, face_parts
+from mbla.model.loads.load_kind import LoadKind
+from mbla.model.loads.load_site import LoadSite
 from mbla.model.solids.blocks import Blocks
-from mbla.model.solids.plane import cut, meeting_boxes, plane_axes, unit
-from mbla.model.solids.polygons import Polygons, polygons_from_loops, triangles
-from mbla.model.solids.ragged import items_of_rows, row_maxima, row_means
+from mbla.model.solids.plane import cut, unit
+from mbla.model.solids.ragged import items_of_rows, row_means
 from mbla.model.wording import counted
 
 
-def pressure_load(load: Load, blocks: IntArray | None, path: KeyPath, site: LoadSite) -> AppliedLoad | None:
+class PressureLoad(Section):
+    """Pressure on faces: the same everywhere, or growing with depth below a level, and none above it.
+
+    Earth pressure of soil with the unit weight γ, whose top is the `level` and carries q per area: `value` K q,
+    `per_depth` K γ, `wall_friction` δ, with the coefficient K of the pressure that is normal to the wall. Coulomb's
+    coefficient K_a, which is that of the whole pressure, inclined by δ, is to be multiplied by cos δ.
+    """
+
+    value: Stress = Field(
+        0.0,
+        description="pressure normal to the face, at the level if there is one; positive pushes against the face",
+    )
+    level: Length | None = Field(None, description="height z above which there is no pressure")
+    per_depth: UnitWeight | None = Field(None, description="increase of the pressure with the depth below the level")
+    wall_friction: WallFrictionAngle = Field(
+        0.0,
+        description="angle δ between what acts on the face and its normal, in degrees: the pressure p drags the face "
+        "with p tan δ besides, straight down its slope, as soil does that settles along a wall; up where δ is negative",
+    )
+    normal: Direction | None = Field(None, description="outward normal of the faces; every face unless given")
+    within: FacingAngle = Field(10.0, description="greatest angle between the normal of a face and that, in degrees")
+    box: Box | None = Field(None, description="least and greatest coordinates: faces whose centroid lies inside")
+    faces: Literal["free", "all"] = Field(
+        "free", description="free: only what of a face no other block and no ground covers; all: covered parts too"
+    )
+
+
+@rule(PressureLoad)
+def sound_pressure(pressure: PressureLoad) -> Iterator[Finding]:
+    """A depth needs a level, an angle a normal."""
+    if pressure.per_depth is not None and pressure.level is None:
+        yield Finding("missing-key", "needs a level from which depth is measured", "per_depth")
+    if "within" in pressure.model_fields_set and pressure.normal is None:
+        yield Finding("key-of-another-choice", "applies with normal only", "within")
+    if not {"value", "per_depth"} & pressure.model_fields_set:
+        yield Finding("missing-key", "needs a value, or a level and per_depth")
+
+
+def pressure_load(entry: Entry, blocks: IntArray | None, site: LoadSite) -> AppliedLoad | None:
     """Pressure on the faces selected of blocks (n,)."""
-    assert load.pressure is not None  # what makes it this kind
-    pressure, here = load.pressure, (*path, "pressure")
+    pressure: PressureLoad = entry.value
+    here = (*entry.path, "pressure")
     chosen = np.arange(len(site.blocks)) if blocks is None else blocks
     faces = _selected_faces(pressure, chosen, site.blocks)
     if not len(faces):
@@ -146,109 +186,14 @@ def _refuse(words: str, path: KeyPath, site: LoadSite) -> None:
         site.refuse(Finding("load-beside-structure", words, *path))
 
 
-FACING = 0.99
-"""cosine of the greatest angle between two faces that lie against each other"""
-
-
-@dataclass(frozen=True)
-class FaceParts:
-    """What is loaded of faces.
-
-    loops : (n, 3, 3) corners of triangles on the planes of their faces, counter-clockwise seen from outside
-    faces : (n,) position of the face in the list asked for
-    areas : (n_faces,) area of each face; covered : (n_faces,) the part of it that other blocks and grounds cover
-    """
-
-    loops: FloatArray
-    faces: IntArray
-    areas: FloatArray
-    covered: FloatArray
-
-
-@dataclass(frozen=True)
-class _Frames:
-    """Plane coordinates on faces: ``origins`` (n, 3), ``axes`` (n, 2, 3), right-handed with the outward normal."""
-
-    origins: FloatArray
-    axes: FloatArray
-
-    def polygons(self, rows: IntArray, faces: IntArray, blocks: Blocks) -> Polygons:
-        """Faces (n,) as polygons, (n,), each in the plane of one of the frames."""
-        corners, start = blocks.corners_of(faces)
-        frame = rows[row_of_item(start)]
-        return polygons_from_loops(np.einsum("nj,nij->ni", corners - self.origins[frame], self.axes[frame]), start)
-
-    def outline(self, row: int, corners: FloatArray) -> Any:
-        """A surface, corners (n, 3), as a polygon in the plane of a frame."""
-        import shapely
-
-        return shapely.Polygon((corners - self.origins[row]) @ self.axes[row].T)
-
-    def triangles(self, polygons: Polygons) -> tuple[FloatArray, IntArray]:
-        """Triangles of polygons (n,), one for each frame: corners (m, 3, 3), outwards, and their polygons (m,)."""
-        flat, rows = triangles(polygons)
-        return np.einsum("nki,nij->nkj", flat, self.axes[rows]) + self.origins[rows, None], rows
-
-
-def face_parts(
-    faces: IntArray,
-    blocks: Blocks,
-    grounds: tuple[Ground, ...],
-    tolerance: float,
-    free_only: bool,
-    overlap: float = 0.0,
-) -> FaceParts:
-    """The faces (n,), or what of them is free.
-
-    tolerance, overlap : of gaps and of overlaps, relative to block size, as those of contacts
-    """
-    import shapely
-
-    frames = _Frames(blocks.vertices[blocks.loops[blocks.loop_start[faces]]], plane_axes(blocks.face_normals[faces]))
-    polygons = frames.polygons(np.arange(len(faces)), faces, blocks)
-    areas = left = np.asarray(shapely.area(polygons))
-    if free_only:
-        mine, others = _facing_pairs(faces, blocks, tolerance, overlap)
-        groups = np.split(frames.polygons(mine, others, blocks), np.flatnonzero(np.diff(mine)) + 1)
-        for row, against in zip(np.unique(mine).tolist(), groups, strict=False):
-            polygons[row] = shapely.difference(polygons[row], shapely.union_all(against))
-        for ground in grounds:
-            on = _on_ground(faces, blocks, ground, tolerance, overlap)
-            for row in np.flatnonzero(on).tolist():
-                taken = polygons[row] if ground.outline is None else frames.outline(row, ground.outline)
-                polygons[row] = shapely.difference(polygons[row], taken)
-        left = np.asarray(shapely.area(polygons))
-        left[left <= 2.0 * tolerance * areas] = 0.0  # rounding of outlines
-        polygons[left == 0.0] = shapely.Polygon()
-    return FaceParts(*frames.triangles(polygons), areas, areas - left)
-
-
-def _on_ground(faces: IntArray, blocks: Blocks, ground: Ground, tolerance: float, overlap: float) -> BoolArray:
-    """Faces that lie in the plane of a ground that carries their block, (n,)."""
-    owner = blocks.block_of_face[faces]
-    corners, start = blocks.corners_of(faces)
-    heights = (corners - ground.point) @ ground.normal
-    on = row_maxima(heights, start) <= tolerance * blocks.sizes[owner]
-    on &= row_maxima(-heights, start) <= max(tolerance, overlap) * blocks.sizes[owner]
-    on &= blocks.face_normals[faces] @ ground.normal <= -FACING
-    return on if ground.blocks is None else np.asarray(on & np.isin(owner, ground.blocks))
-
-
-def _facing_pairs(faces: IntArray, blocks: Blocks, tolerance: float, overlap: float) -> tuple[IntArray, IntArray]:
-    """(position in ``faces``, face of another block that may lie against it)."""
-    corners = blocks.vertices[blocks.loops]
-    low, high = -row_maxima(-corners, blocks.loop_start), row_maxima(corners, blocks.loop_start)
-    reach = tolerance * blocks.sizes[blocks.block_of_face]
-    margin = reach[faces, None]
-    mine, others = meeting_boxes(low[faces] - margin, high[faces] + margin, low, high)
-    face = faces[mine]
-    between = blocks.vertices[blocks.loops[blocks.loop_start[others]]]
-    between = between - blocks.vertices[blocks.loops[blocks.loop_start[face]]]
-    normals = blocks.face_normals[face]
-    kept = blocks.block_of_face[face] != blocks.block_of_face[others]
-    height = np.einsum("ij,ij->i", between, normals)
-    near = 2.0 * reach[face] + reach[others]
-    smaller = np.minimum(*(blocks.sizes[blocks.block_of_face[side]] for side in (face, others)))
-    kept &= (height <= near) & (height >= -np.maximum(near, 1.001 * overlap * smaller))
-    kept &= np.einsum("ij,ij->i", blocks.face_normals[others], normals) <= -FACING
-    return mine[kept], others[kept]
+register_load(
+    LoadKind(
+        name="pressure",
+        section=PressureLoad,
+        description="pressure on faces",
+        after="line",
+        takes=("follows",),
+        build=pressure_load,
+        mirrored=True,
+    )
+)

@@ -2,31 +2,35 @@
 
 from __future__ import annotations
 
+from typing import Annotated
+
 import numpy as np
+from pydantic import Field
 
 from mbla.arrays import FloatArray, IntArray
-from mbla.deck.sections.loads import Load
+from mbla.deck.load_key import register_load
 from mbla.deck.suggestions import did_you_mean, listed
-from mbla.deck.text.tree import KeyPath
 from mbla.errors import DeckError, Message
-from mbla.model.loads.load_kind import AppliedLoad, LoadSite, sum_on_blocks, wrenches_of
+from mbla.model.applied_load import AppliedLoad, sum_on_blocks, wrenches_of
+from mbla.model.loads.entry import Entry
+from mbla.model.loads.load_kind import LoadKind
+from mbla.model.loads.load_site import LoadSite
 from mbla.model.tables import Table, TableRefused, read_table
 from mbla.model.wording import counted
 
 FORCE, POINT, MOMENT = ("fx", "fy", "fz"), ("x", "y", "z"), ("mx", "my", "mz")
 
 
-def table_load(load: Load, blocks: IntArray | None, path: KeyPath, site: LoadSite) -> AppliedLoad | None:
+def table_load(entry: Entry, blocks: IntArray | None, site: LoadSite) -> AppliedLoad | None:
     """Rows with group, index, force, and optionally a point where it acts, a moment, or both.
 
     A force without a point acts at the centroid. A moment is added to what the force brings about the centroid.
 
     blocks : (n,) or None, those that other kinds of load act on; the rows name theirs
     """
-    assert load.table is not None  # what makes it this kind
-    here = (*path, "table")
+    here = (*entry.path, "table")
     try:
-        table = read_table(site.resolve_file(here, load.table), ("group", "index", *FORCE), (*POINT, *MOMENT))
+        table = read_table(site.resolve_file(here, entry.value), ("group", "index", *FORCE), (*POINT, *MOMENT))
         forces, points, moments = _numbers(table)
         rows = _blocks(table, site)
         table.check()
@@ -43,7 +47,7 @@ def table_load(load: Load, blocks: IntArray | None, path: KeyPath, site: LoadSit
     wrenches = wrenches_of(forces, centroids if points is None else points, centroids)
     wrenches[:, 3:6] += moments
     acted_on, total = sum_on_blocks(rows, wrenches)
-    words = f"{counted(len(rows), 'row')} of {load.table}: forces on {counted(len(acted_on), 'block')}"
+    words = f"{counted(len(rows), 'row')} of {entry.value}: forces on {counted(len(acted_on), 'block')}"
     return AppliedLoad(acted_on, total, words)
 
 
@@ -73,3 +77,18 @@ def _blocks(table: Table, site: LoadSite) -> IntArray | None:
     if site.roster.partial.intersection(table.columns["group"]):
         return None
     return np.array([block or 0 for block in found], dtype=np.int64)
+
+
+register_load(
+    LoadKind(
+        name="table",
+        section=Annotated[str, Field(min_length=1)],
+        description="CSV file, relative to the deck: a header line with the columns group,index,fx,fy,fz, optionally "
+        "x,y,z (where the force acts; the centroid unless given) and mx,my,mz (moment); then a row for each force",
+        after="tilt",
+        refuses={"on": "a table, whose rows name their blocks"},
+        is_file=True,
+        build=table_load,
+        may_cancel=True,
+    )
+)

@@ -13,28 +13,43 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
+from pydantic import Field
 
 from mbla.arrays import FloatArray
-from mbla.deck.sections.loads import Tilt as TiltSection
-from mbla.deck.text.tree import KeyPath
+from mbla.deck.load_key import register_load
+from mbla.deck.quantities import Direction
+from mbla.deck.section import Section
 from mbla.errors import Finding
-from mbla.model.loads.gravity import gravity_of, mass_forces
-from mbla.model.loads.load_kind import AppliedLoad, Entry, LoadSite
+from mbla.model.applied_load import AppliedLoad
+from mbla.model.loads.entry import Entry
+from mbla.model.loads.gravity import GRAVITY, gravity_of
+from mbla.model.loads.load_kind import CaseKind, Variant
+from mbla.model.loads.load_site import LoadSite
+from mbla.model.loads.mass_forces import mass_forces
 from mbla.model.solids.plane import unit
 from mbla.model.wording import vector
-from mbla.questions.tilt import Tilt
+from mbla.questions.tilt import Tilt as TiltedLoads
 
 ALONG = 1e-9
 """share of gravity across the axis, below which the axis counts as parallel to it"""
 
 
-def tilt_loads(
-    load: TiltSection, dead: Sequence[Entry], dead_total: FloatArray, path: KeyPath, site: LoadSite
-) -> tuple[Tilt, AppliedLoad]:
-    """What turns of the dead load, (n_blocks, 6), and how; a fault where nothing does. Besides, the load across."""
-    axis = unit(np.array(load.axis))
+class Tilt(Section):
+    """Tilting table: the structure turns with its supports until it collapses; the answer is an angle."""
+
+    axis: Direction = Field(
+        description="axis about which the table turns, by the right hand: about [0, 1, 0] it tips towards +x"
+    )
+
+
+def tilt_variants(
+    name: str, entry: Entry, dead: Sequence[Entry], dead_load: FloatArray, site: LoadSite
+) -> list[Variant]:
+    """What turns of the dead load, (n_blocks, 6), and how; a fault where nothing does. What acts is gravity across."""
+    tilt: Tilt = entry.value
+    axis = unit(np.array(tilt.axis))
     gravity = gravity_of(dead)
-    others = any(entry.load.gravity is None for entry in dead)
+    others = any(load.kind != GRAVITY for load in dead)
     level = gravity - (gravity @ axis) * axis
     everywhere = np.arange(len(site.blocks))
     turning = mass_forces(everywhere, level, site)[:, :6]
@@ -42,10 +57,22 @@ def tilt_loads(
     size = max(np.abs(gravity).max(), np.finfo(np.float64).tiny)  # so that squares do not overflow
     if np.linalg.norm(level / size) <= ALONG * np.linalg.norm(gravity / size):
         what = "gravity lies along the axis" if gravity.any() else "there is no gravity among the dead loads"
-        site.refuse(Finding("live-load-without-effect", f"nothing turns: {what}", *path, "live", 0, "tilt"))
+        site.refuse(Finding("live-load-without-effect", f"nothing turns: {what}", *entry.path, "tilt"))
     if others:
-        name = path[-1]
         message = f"{name}: only gravity turns; the other dead loads keep their direction in the structure"
         site.warn("tilt-turns-gravity-only", message)
-    tilt = Tilt(axis, dead_total - turning, turning, across[:, :6])
-    return tilt, AppliedLoad(everywhere, across, f"tilt about {vector(load.axis)}")
+    applied = AppliedLoad(everywhere, across, f"tilt about {vector(tilt.axis)}", on_masses=True)
+    return [Variant(applied, tilt=TiltedLoads(axis, dead_load - turning, turning, across[:, :6]))]
+
+
+register_load(
+    CaseKind(
+        name="tilt",
+        section=Tilt,
+        description="gravity turns; the only load of its list",
+        after="travel",
+        refuses={"on": "tilt, which turns the whole structure", "factor": "tilt: gravity turns as it is"},
+        alone="whose answer is an angle",
+        variants=tilt_variants,
+    )
+)

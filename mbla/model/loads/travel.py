@@ -9,38 +9,81 @@ path to the last at its end; of each position those forces act that are on the p
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from itertools import pairwise
 from typing import TypeAlias
 
 import numpy as np
+from pydantic import Field
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
-from mbla.deck.sections.vehicles import Travel
+from mbla.deck.load_key import register_load
+from mbla.deck.quantities import Direction, Force, Name, Point, Positions, PositiveLength
+from mbla.deck.section import Section, exactly_one_of, given, rule
+from mbla.deck.sections.vehicles import DOWN, TOWARDS, WIDTH, Axle
 from mbla.deck.text.tree import KeyPath
 from mbla.errors import Finding, Notice
+from mbla.model.applied_load import AppliedLoad
 from mbla.model.loads.blocks_under import Below
 from mbla.model.loads.dispersal import Spread
+from mbla.model.loads.entry import Entry
 from mbla.model.loads.landing import Landing, level, on_blocks, share_of
-from mbla.model.loads.load_kind import AppliedLoad, Entry, LoadSite
-from mbla.model.loads.vehicle import axles_of, remark_upwards
+from mbla.model.loads.load_kind import CaseKind, Variant
+from mbla.model.loads.load_site import LoadSite
+from mbla.model.loads.vehicle import Axles, axles_in_row, axles_of, remark_upwards
 from mbla.model.selectors import select_blocks
 from mbla.model.wording import counted, vector
 from mbla.questions.travel import TravelPosition
 
 ON_PATH = 1e-9
 """share of the length of a path within which a force at its end is on it: distances are sums with rounding"""
+AXLES = (
+    "forces that follow the first one, as the axles of a lorry; none acts before it is on the path and beyond its end"
+)
 
 
-def travel_loads(name: str, entry: Entry, site: LoadSite) -> list[tuple[TravelPosition, AppliedLoad]] | None:
-    """The load at every position; None where a fault was left, as for positions over no block."""
-    travel, through = entry.load.travel, entry.load.through
-    assert travel is not None  # what makes it this kind
+@exactly_one_of("force", "vehicle")
+class Travel(Section):
+    """A force, or several in a row, along a path: a load case for each position, and the worst of them."""
+
+    force: tuple[Force, Force, Force] | None = Field(
+        None, description="the force; it acts where the path is drawn, with its moment"
+    )
+    vehicle: Name | None = Field(None, description="or a vehicle of section vehicles")
+    path: list[Point] = Field(min_length=2, description="corners of the path")
+    positions: Positions = Field(
+        description="positions at equal distances along the path, its ends among them; with axles from the first force "
+        "at the beginning of the path to the last axle at its end"
+    )
+    axles: list[Axle] | None = Field(None, min_length=1, max_length=100, description=AXLES)
+    width: PositiveLength | None = Field(None, description=f"{WIDTH} acts at a point")
+    towards: Direction = Field(DOWN, description=TOWARDS)
+
+
+@rule(Travel)
+def sound_path(load: Travel) -> Iterator[Finding]:
+    """A path goes on; a vehicle has axles of its own."""
+    for number, (before, here) in enumerate(pairwise(load.path), start=1):
+        if before == here:
+            yield Finding("degenerate-line", "must not be the corner before it", "path", number)
+    if load.vehicle is not None:
+        for key in given(load, ("axles", "width")):
+            yield Finding("key-of-another-choice", f"belongs to vehicles.{load.vehicle}: give it there", key)
+
+
+def travel_variants(
+    name: str, entry: Entry, dead: Sequence[Entry], dead_load: FloatArray, site: LoadSite
+) -> list[Variant]:
+    """The load at every position; none where a fault was left, as for positions over no block."""
+    travel: Travel = entry.value
+    through, on = entry.load.through, entry.load.on
     chosen: IntArray | None = np.arange(len(site.blocks))
-    if entry.load.on is not None:
-        chosen = select_blocks(entry.load.on, (*entry.path, "on"), site.roster)
+    if on is not None:
+        chosen = select_blocks(on, (*entry.path, "on"), site.roster)
     if chosen is None or (through is not None and through not in site.fill):
-        return None
-    axles, path = axles_of(travel, site), (*entry.path, "travel")
+        return []
+    axles, path = _axles(travel, site), (*entry.path, "travel")
     vehicle = vehicle_on_path(travel, axles.behind)
     empty = [number for number, (_, _, acting) in enumerate(vehicle, start=1) if not acting.any()]
     if empty:
@@ -49,21 +92,21 @@ def travel_loads(name: str, entry: Entry, site: LoadSite) -> list[tuple[TravelPo
             "them"
         )
         site.refuse(Finding("load-beside-structure", words, *path, "axles" if travel.vehicle is None else "vehicle"))
-        return None
+        return []
     _remark_off_path(entry.factor * axles.forces, [acting for _, _, acting in vehicle], path, site)
     landing = Landing(
         Below(site.blocks, np.array(travel.towards), chosen), site.fill[through] if through else None, path, site
     )
     steps = np.diff(np.array(travel.path), axis=0)
     if not all(landing.sound(axles.forces, step, axles.width) for step in steps):
-        return None
+        return []
     before = len(site.roster.faults)
     found = [_landed(landing, travel, axles.width, *each) for each in vehicle]
     bare = [(number, place) for number, (_, place) in enumerate(found, start=1) if place is not None]
     if bare and len(site.roster.faults) == before and not site.roster.partial:
         _refuse_bare(bare, len(vehicle), landing)
     if bare:
-        return None
+        return []
     positions, forces = [], entry.factor * axles.forces
     for number, ((points, distances, _), (landed, _)) in enumerate(zip(vehicle, found, strict=True), start=1):
         if landing.through is not None:
@@ -71,9 +114,18 @@ def travel_loads(name: str, entry: Entry, site: LoadSite) -> list[tuple[TravelPo
         under = np.array([_most(each) for each in landed])
         spread = landing.through is not None or axles.width > 0.0
         position = TravelPosition(name, number, len(vehicle), points, distances, forces, under, spread)
-        positions.append((position, _applied(position, landed, landing)))
+        applied = replace(_applied(position, landed, landing), follows=entry.load.follows)
+        positions.append(Variant(applied, travel=position))
     _remark_parts(name, axles.forces, [landed for landed, _ in found], landing)
     return positions
+
+
+def _axles(travel: Travel, site: LoadSite) -> Axles:
+    """Its own, or those of the vehicle that it names."""
+    if travel.vehicle is not None:
+        return axles_of(site.vehicles[travel.vehicle])
+    assert travel.force is not None  # a rule of the deck: a force, or a vehicle
+    return axles_in_row(travel.force, travel.axles or [], travel.width)
 
 
 Landed: TypeAlias = Sequence[Spread | None]
@@ -205,3 +257,16 @@ def vehicle_on_path(travel: Travel, behind: FloatArray) -> list[tuple[FloatArray
         )
         found.append((points, distances, acting))
     return found
+
+
+register_load(
+    CaseKind(
+        name="travel",
+        section=Travel,
+        description="force at one position after the other",
+        after="loads",
+        takes=("through", "follows"),
+        names={"vehicle": "vehicle"},
+        variants=travel_variants,
+    )
+)

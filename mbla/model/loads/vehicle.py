@@ -2,20 +2,37 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from pydantic import Field
 
 from mbla.arrays import FloatArray, IntArray
-from mbla.deck.sections.loads import Load
-from mbla.deck.sections.vehicles import Travel, Vehicle
-from mbla.deck.text.tree import KeyPath
+from mbla.deck.load_key import register_load
+from mbla.deck.quantities import Direction, Name, Point
+from mbla.deck.section import Section
+from mbla.deck.sections.vehicles import DOWN, TOWARDS, Axle, Vehicle
 from mbla.errors import Finding
+from mbla.model.applied_load import AppliedLoad
 from mbla.model.loads.blocks_under import Below
+from mbla.model.loads.entry import Entry
 from mbla.model.loads.landing import Landing, level, on_blocks
-from mbla.model.loads.load_kind import AppliedLoad, LoadSite
+from mbla.model.loads.load_kind import LoadKind
+from mbla.model.loads.load_site import LoadSite
 from mbla.model.solids.plane import unit
 from mbla.model.wording import counted, vector
+
+
+class VehicleLoad(Section):
+    """A vehicle that stands on the structure, or on fill."""
+
+    name: Name = Field(description="which of section vehicles")
+    at: Point = Field(description="where its first axle stands")
+    along: Direction = Field(
+        (1.0, 0.0, 0.0), description="the way that it looks: the other axles stand behind the first one"
+    )
+    towards: Direction = Field(DOWN, description=TOWARDS)
 
 
 @dataclass(frozen=True)
@@ -32,14 +49,15 @@ class Axles:
     width: float
 
 
-def axles_of(load: Vehicle | Travel, site: LoadSite) -> Axles:
-    """Axles of a vehicle, or of a load that travels and may name one."""
-    if isinstance(load, Travel) and load.vehicle is not None:
-        return axles_of(site.vehicles[load.vehicle], site)
-    others = load.axles or []
-    assert load.force is not None  # a rule of the deck: a force, or a vehicle
-    forces = np.array([load.force, *(axle.force for axle in others)])
-    return Axles(forces, np.array([0.0, *(axle.behind for axle in others)]), load.width or 0.0)
+def axles_in_row(force: Sequence[float], others: Sequence[Axle], width: float | None) -> Axles:
+    """Axles by the force of the first one, (3,), and those behind it."""
+    forces = np.array([force, *(axle.force for axle in others)])
+    return Axles(forces, np.array([0.0, *(axle.behind for axle in others)]), width or 0.0)
+
+
+def axles_of(vehicle: Vehicle) -> Axles:
+    """Axles of a vehicle of the deck."""
+    return axles_in_row(vehicle.force, vehicle.axles, vehicle.width)
 
 
 def remark_upwards(forces: FloatArray, where: str, site: LoadSite) -> None:
@@ -50,16 +68,16 @@ def remark_upwards(forces: FloatArray, where: str, site: LoadSite) -> None:
         site.warn("axle-upwards", f"{words}: write a negative z if it is a weight")
 
 
-def vehicle_load(load: Load, blocks: IntArray | None, path: KeyPath, site: LoadSite) -> AppliedLoad | None:
+def vehicle_load(entry: Entry, blocks: IntArray | None, site: LoadSite) -> AppliedLoad | None:
     """All axles of a vehicle where they stand; a fault where one lies over no block, in fill where all do."""
-    assert load.vehicle is not None  # what makes it this kind
-    if load.through is not None and load.through not in site.fill:
+    stands: VehicleLoad = entry.value
+    name, axles = entry.load.through, axles_of(site.vehicles[stands.name])
+    if name is not None and name not in site.fill:
         return None  # its blocks could not be built
-    stands, axles = load.vehicle, axles_of(site.vehicles[load.vehicle.name], site)
-    through = None if load.through is None else site.fill[load.through]
+    through = None if name is None else site.fill[name]
     chosen = np.arange(len(site.blocks)) if blocks is None else blocks
-    here = (*path, "vehicle")
-    remark_upwards(load.factor * axles.forces, ".".join(map(str, here)), site)
+    here = (*entry.path, "vehicle")
+    remark_upwards(entry.load.factor * axles.forces, ".".join(map(str, here)), site)
     landing = Landing(Below(site.blocks, np.array(stands.towards), chosen), through, here, site)
     way = unit(stands.along)
     if not landing.sound(axles.forces, way, axles.width):
@@ -86,3 +104,17 @@ def vehicle_load(load: Load, blocks: IntArray | None, path: KeyPath, site: LoadS
     return AppliedLoad(
         unique, total, f"{words}, {counted(len(places), 'axle')}{spread} on {counted(len(unique), 'block')}"
     )
+
+
+register_load(
+    LoadKind(
+        name="vehicle",
+        section=VehicleLoad,
+        description="a vehicle that stands",
+        after="pressure",
+        takes=("through",),
+        names={"name": "vehicle"},
+        build=vehicle_load,
+        mirrored=True,
+    )
+)

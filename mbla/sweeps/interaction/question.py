@@ -25,11 +25,10 @@ import numpy as np
 from mbla.assembly import build_assembly
 from mbla.deck import Deck
 from mbla.deck.section import given
-from mbla.deck.sections.loads import LIVE_ONLY
 from mbla.errors import UsageError
 from mbla.model import build_model
-from mbla.model.loads.load_case import kind_of
-from mbla.model.loads.load_kind import Entry, entries_of
+from mbla.model.loads.entry import Entry, entries_of
+from mbla.model.loads.load_kind import load_kind
 from mbla.model.model import Model
 from mbla.sweeps.design.directions import FULL_CIRCLE, horizontal
 from mbla.sweeps.plan import Plain, override_texts
@@ -39,8 +38,6 @@ DIRECTIONS, ANGLES = 72, 31
 """points unless their number is given: every 5 degrees around, every 3 degrees of a quarter"""
 MOST_POINTS = 3600
 QUARTER = 90.0
-TURNED = ("gravity", "acceleration", "force")
-"""kinds of loads that are turned: those that are a vector"""
 ONE_WAY = 1e-9
 """sine of the angle between two horizontal parts up to which they point one way: rounding of expressions in decks"""
 SAME_LOAD = 1e-12
@@ -181,7 +178,7 @@ def _live_loads(deck: Deck, case: str) -> list[Entry]:
     for key in given(cases[case], tuple(NO_LIVE_LOAD)):
         raise UsageError("interact-load", f"load case {case}: {NO_LIVE_LOAD[key]}")
     entries = list(entries_of(cases[case].live or [], ("load_cases", case, "live"), deck.content.loads))
-    if any(given(entry.load, LIVE_ONLY) for entry in entries):
+    if not all(entry.adds_up for entry in entries):
         raise UsageError(
             "interact-load", f"load case {case}: its live load travels or tilts; a diagram takes other kinds of load"
         )
@@ -194,9 +191,9 @@ def _written(deck: Deck, entry: Entry, factor: float, **changes: Any) -> dict[st
     A table is named relative to the main file of the deck, from where a setting looks for it.
     """
     text: dict[str, Any] = entry.load.model_dump(mode="json", by_alias=True, exclude_unset=True, exclude_none=True)
-    if entry.load.table is not None:
-        table = deck.resolve_file((*entry.path, "table"), entry.load.table)
-        text["table"] = os.path.relpath(table.resolve(), deck.folder.resolve())
+    if entry.load.facts.is_file:
+        file = deck.resolve_file((*entry.path, entry.kind), entry.value)
+        text[entry.kind] = os.path.relpath(file.resolve(), deck.folder.resolve())
     return text | {"factor": factor} | changes
 
 
@@ -231,7 +228,7 @@ def _direction(deck: Deck, case: str, count: int) -> Question:
         found: list[Plain] = []
         for entry, part, (_, _, z) in zip(entries, parts, vectors, strict=True):
             to = part * complex(*horizontal(azimuth, 1.0))
-            change = {kind_of(entry.load): [to.real + 0.0, to.imag + 0.0, z]}
+            change = {entry.kind: [to.real + 0.0, to.imag + 0.0, z]}
             found.append(_written(deck, entry, entry.factor, **change))
         return found
 
@@ -256,14 +253,14 @@ def _direction(deck: Deck, case: str, count: int) -> Question:
 
 def _vector(case: str, entry: Entry) -> tuple[float, float, float]:
     """The vector of a load; raises UsageError for one that has none."""
-    kind = kind_of(entry.load)
-    if kind not in TURNED:
+    vector = load_kind(entry).vector
+    if vector is None:
         raise UsageError(
             "interact-load",
-            f"load case {case}: its live load {'.'.join(map(str, entry.path))} is a {kind}, which is not turned; "
+            f"load case {case}: its live load {'.'.join(map(str, entry.path))} is a {entry.kind}, which is not turned; "
             "the load factor over direction takes acceleration, gravity and force",
         )
-    x, y, z = getattr(entry.load, kind)
+    x, y, z = vector(entry.value)
     return float(x), float(y), float(z)
 
 
@@ -282,7 +279,7 @@ def _two_loads(deck: Deck, model: Model, pair: tuple[str, ...]) -> Callable[[flo
         )
     own: dict[str, Plain] = {}
     if (dead := deck.content.load_cases[first].dead) is not None:
-        places = [Entry(load, ("load_cases", first, "dead", number), load.factor) for number, load in enumerate(dead)]
+        places = [Entry.of(load, ("load_cases", first, "dead", number)) for number, load in enumerate(dead)]
         own["dead"] = [_written(deck, entry, entry.factor) for entry in places]
     case = f"load_cases.{_free_name(deck, 'interact')}"
 

@@ -11,7 +11,6 @@ from mbla.arrays import FloatArray
 from mbla.assembly import build_assembly
 from mbla.deck import Deck
 from mbla.deck.section import given
-from mbla.deck.sections.loads import LIVE_ONLY
 from mbla.errors import DeckError, UsageError
 from mbla.model import Model, build_model
 from mbla.model.build import structure_of
@@ -40,7 +39,8 @@ def refuse_unfit(deck: Deck) -> None:
         raise UsageError("strengthen-not-possible", "a deck with symmetry: give the whole structure")
     for name in content.strengthen.required:
         case = content.load_cases[name]  # the deck was checked for that
-        if given(case, ("settlement", "objective")) or any(given(load, LIVE_ONLY) for load in case.live or []):
+        live = case.live or []
+        if given(case, ("settlement", "objective")) or any(load.facts.live_only for load in live):
             words = f"load case {name}: a load that travels or tilts, a settlement, an objective has no required factor"
             raise UsageError("strengthen-not-possible", words)
 

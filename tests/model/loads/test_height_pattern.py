@@ -11,7 +11,7 @@ import pytest
 from mbla.arrays import FloatArray
 from mbla.deck import read_deck
 from mbla.model import build_model
-from mbla.model.loads.gravity import ramp_moments
+from mbla.model.loads.pattern_factors import ramp_moments
 from mbla.results.collapse.mechanics import live_load_in_g
 from tests.model.shapes import L_OUTLINE, build, deck, prism, write_deck
 

@@ -8,21 +8,20 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
-from mbla.deck.section import given
+from mbla.deck.load_key import LOAD_KEYS
 from mbla.deck.sections.load_cases import LoadCaseSection, supports_of
-from mbla.deck.sections.loads import LIVE_ONLY, Load
 from mbla.deck.text.tree import KeyPath
 from mbla.errors import Finding
+from mbla.model.applied_load import AppliedLoad, without_levers
+from mbla.model.loads.entry import Entry, entries_of
 from mbla.model.loads.gravity import gravity_of, with_gravity
-from mbla.model.loads.kinds import LOAD_KINDS
-from mbla.model.loads.load_kind import AppliedLoad, Entry, LoadSite, entries_of, without_levers
-from mbla.model.loads.tilt import tilt_loads
-from mbla.model.loads.travel import case_name, travel_loads
+from mbla.model.loads.load_kind import CaseKind, Variant, load_kind
+from mbla.model.loads.load_site import LoadSite
+from mbla.model.loads.travel import case_name
 from mbla.model.model import LoadCase, Pushing
 from mbla.model.selectors import select_blocks
 from mbla.model.solids.plane import unit
 from mbla.model.wording import named, vector
-from mbla.questions.travel import TravelPosition
 
 CANCELLED = 1e-12
 """sum of loads, relative to the loads themselves, at which nothing is left of them but rounding"""
@@ -82,30 +81,33 @@ def build_load_cases(name: str, section: LoadCaseSection, site: LoadSite) -> tup
     dead_loads = with_gravity(entries_of(section.dead or [], (*path, "dead"), site.named), path, site.units)
     before = len(site.roster.faults)
     dead = _add_up(dead_loads, site, live=False)
-    live = _add_up(entries_of(section.live or [], (*path, "live"), site.named), site, live=True)
-    tilt, positions = None, list[tuple[TravelPosition | None, AppliedLoad | None]]([(None, None)])
-    if section.live and (table := section.live[0].tilt) is not None:  # what it turns first stands for the live load
-        tilt, across = tilt_loads(table, dead_loads, dead.net, path, site)
-        live = live.plus(across)
-    _judge_soil(name, gravity_of(dead_loads), tilt is not None, site)
-    for number, load in enumerate(section.live or []):
-        if load.travel is not None:  # a rule of the deck: at most one does
-            there = travel_loads(name, Entry(load, (*path, "live", number), load.factor), site) or []
-            positions = [(position, replace(each, follows=load.follows)) for position, each in there]
+    live_loads = list(entries_of(section.live or [], (*path, "live"), site.named))
+    live = _add_up(live_loads, site, live=True)
+    variants = [Variant()]
+    for entry in live_loads:
+        if isinstance(kind := LOAD_KEYS[entry.kind], CaseKind):  # a rule of the deck: at most one is
+            variants = kind.variants(name, entry, dead_loads, dead.net, site)
+    _judge_soil(name, gravity_of(dead_loads), any(each.tilt is not None for each in variants), site)
     sound = len(site.roster.faults) == before
     cases = []
-    for position, applied in positions:
-        own = live if applied is None else live.plus(applied)
+    for variant in variants:
+        position = variant.travel
+        own = live if variant.load is None else live.plus(variant.load)
         if len(site.roster.faults) == before and own.complete and section.live is not None:
-            _judge_live(applied, path, own, site)
+            _judge_live(variant.load, path, own, site)
         asked = None if section.pushover is None else section.pushover.position
         here = asked is None or position is None or position.number == asked
-        pushed = _pushing(name, section, dead, own, site) if here else None
         case = LoadCase(
-            name, dead.net, own.net, dead.words, own.words, tilt=tilt, pushover=pushed, assessment=section.assessment
+            name if position is None else case_name(position),
+            dead.net,
+            own.net,
+            dead.words,
+            own.words,
+            travel=position,
+            tilt=variant.tilt,
+            pushover=_pushing(name, section, dead, own, site) if here else None,
+            assessment=section.assessment,
         )
-        if position is not None:
-            case = replace(case, name=case_name(position), travel=position)
         cases.append(case)
     if sound and dead.complete:
         _judge_size((*path, "dead") if section.dead is not None else path, dead, site)
@@ -203,48 +205,42 @@ def _judge_size(path: KeyPath, loads: _Sum, site: LoadSite) -> bool:
 
 def _add_up(entries: Iterable[Entry], site: LoadSite, live: bool) -> _Sum:
     nothing = np.zeros((len(site.fixed), 15))
-    sums = [entry for entry in entries if not given(entry.load, LIVE_ONLY)]
+    sums = [entry for entry in entries if entry.adds_up]
     return _Sum(nothing, nothing, nothing).plus(*(_apply(entry, site, live) for entry in sums))
-
-
-def kind_of(load: Load) -> str:
-    """The key that makes a load what it is; a rule of the deck: it has exactly one."""
-    return next(kind for kind in LOAD_KINDS if getattr(load, kind) is not None)
 
 
 def _apply(entry: Entry, site: LoadSite, live: bool) -> AppliedLoad | None:
     """One load on its blocks; None where a fault was left, or where blocks it depends on could not be built."""
-    load, path, blocks = entry.load, entry.path, None
-    if load.on is not None:
-        blocks = select_blocks(load.on, (*path, "on"), site.roster)
+    on, blocks = entry.load.on, None
+    if on is not None:
+        blocks = select_blocks(on, (*entry.path, "on"), site.roster)
         if blocks is None:
             return None
-    applied = LOAD_KINDS[kind_of(load)](load, blocks, path, site)
-    if applied is not None and entry.factor != 1.0:
-        words = f"{entry.factor:.6g} times {applied.words}"
-        applied = AppliedLoad(applied.blocks, entry.factor * applied.wrenches, words)
-    if applied is not None and load.follows:
-        applied = replace(applied, follows=True)
-    if applied is not None:
-        _judge_effect(entry, applied, site, live)
+    applied = load_kind(entry).build(entry, blocks, site)
+    if applied is None:
+        return None
+    if entry.factor != 1.0:
+        applied = applied.times(entry.factor)
+    applied = replace(applied, follows=entry.load.follows)
+    _judge_effect(entry, applied, site, live)
     return applied
 
 
 def _judge_effect(entry: Entry, applied: AppliedLoad, site: LoadSite, live: bool) -> None:
     """A live load must do something; on blocks that do not move any load goes straight into the support."""
-    blocks, kind = applied.blocks, kind_of(entry.load)
-    key = "on" if entry.load.on is not None else kind
+    blocks, kind = applied.blocks, load_kind(entry)
+    key = "on" if entry.load.on is not None else kind.name
     # what weighs nothing is refused as such, and rows of a table that cancel each other as live loads that do
-    weightless = kind == "table" or (kind in ("gravity", "acceleration") and not site.blocks.masses[blocks].any())
+    weightless = kind.may_cancel or (applied.on_masses and not site.blocks.masses[blocks].any())
     if live and not applied.wrenches.any() and not weightless:
-        site.refuse(Finding("live-load-without-effect", "is a live load with no effect", *entry.path, kind))
+        site.refuse(Finding("live-load-without-effect", "is a live load with no effect", *entry.path, kind.name))
     if not site.fixed[blocks].all() or site.fixed.all():  # a structure that is fixed altogether is refused as such
         return
     if live:
         words = "every block it acts on is fixed: the live load has no effect"
         site.refuse(Finding("live-load-without-effect", words, *entry.path, key))
-    elif kind not in ("gravity", "acceleration"):
+    elif not applied.on_masses:
         name = named(blocks, site.blocks.name)
         moves = "does not move" if len(blocks) == 1 else "do not move"
-        words = f"the dead {kind} on {name} goes straight into the support, for {name} {moves}"
+        words = f"the dead {kind.name} on {name} goes straight into the support, for {name} {moves}"
         site.warn("dead-load-on-support", words)

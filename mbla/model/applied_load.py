@@ -1,0 +1,53 @@
+"""A load as forces and moments on blocks."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from mbla.arrays import FloatArray, IntArray, summed
+
+
+@dataclass(frozen=True)
+class AppliedLoad:
+    """One load on the blocks that it acts on.
+
+    blocks    : (n,) ascending, each once
+    wrenches  : (n, 15) force and moment about the centroid of each block, in the deck's units, and the lever a F of all
+                forces that are not couples, arms from the centroid by rows: how the moment changes as the block turns
+    words     : the load in words, for the listing
+    on_masses : every mass on these blocks is accelerated: the forces are those of one acceleration, but for a pattern
+    in_g      : that acceleration is the same for all, and the deck gives it in g
+    follows   : in a pushover it turns with its block
+    """
+
+    blocks: IntArray
+    wrenches: FloatArray
+    words: str
+    on_masses: bool = False
+    in_g: bool = False
+    follows: bool = False
+
+    def times(self, factor: float) -> AppliedLoad:
+        """The load with a factor, which is no acceleration in g any more."""
+        words = f"{factor:.6g} times {self.words}"
+        return replace(self, wrenches=factor * self.wrenches, words=words, in_g=False)
+
+
+def wrenches_of(forces: FloatArray, points: FloatArray, centroids: FloatArray) -> FloatArray:
+    """Forces at points as forces, moments about centroids, (p - x) x F, and levers; all (n, 3), the result (n, 15)."""
+    arms = points - centroids
+    levers = arms[:, :, None] * forces[:, None, :]
+    return np.hstack([forces, np.cross(arms, forces), levers.reshape(-1, 9)])
+
+
+def without_levers(wrenches: FloatArray) -> FloatArray:
+    """Of forces at the centroids and couples, (n, 6): (n, 15)."""
+    return np.hstack([wrenches, np.zeros((len(wrenches), 9))])
+
+
+def sum_on_blocks(blocks: IntArray, wrenches: FloatArray) -> tuple[IntArray, FloatArray]:
+    """Blocks, each once, ascending, and the sums of the wrenches on them, from (n,) and (n, 15)."""
+    unique, row = np.unique(blocks, return_inverse=True)
+    return unique, summed(row, wrenches, len(unique))
