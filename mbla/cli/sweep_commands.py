@@ -20,7 +20,7 @@ from mbla.process.collector import loading
 
 if TYPE_CHECKING:
     from mbla.sweeps.command import Finished, SweepOptions
-    from mbla.sweeps.plan import Outcome, Task
+    from mbla.sweeps.plan import PointOutcome, Task
     from mbla.sweeps.words import Progress
 
 NAMED_FAILURES = 20
@@ -155,7 +155,7 @@ class _Reporter:
         self._terminal = sys.stderr.isatty()
         self._last = time.monotonic()
 
-    def __call__(self, progress: Progress, task: Task | None, outcome: Outcome | None) -> None:
+    def __call__(self, progress: Progress, task: Task | None, outcome: PointOutcome | None) -> None:
         failed = outcome is not None and outcome.state == "failed"
         if task is not None and outcome is not None and failed and progress.failed <= NAMED_FAILURES:
             self.end()

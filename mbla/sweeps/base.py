@@ -14,7 +14,7 @@ from mbla.deck.text.overrides import LABEL, RefusedError
 from mbla.deck.text.tree import KeyPath, Tree
 from mbla.errors import DeckError, Fault, FileError, Message, Place
 from mbla.sweeps.base_rules import base_faults
-from mbla.sweeps.design.design import Point, Sources, Vector
+from mbla.sweeps.design.design import DesignPoint, Sources, Vector
 from mbla.sweeps.file.content import DIRECTIONS, key_paths, way_of
 from mbla.sweeps.file.read import Sweep
 from mbla.sweeps.file.rules import key_places
@@ -151,7 +151,7 @@ def _paths(sweep: Sweep, tree: Tree, faults: list[Fault]) -> dict[str, tuple[Key
     return found
 
 
-def check_points(base: Base, points: Sequence[Point]) -> None:
+def check_points(base: Base, points: Sequence[DesignPoint]) -> None:
     """Refuse a sweep whose first, middle and last points are all refused as decks.
 
     One that is readable is enough: corners of a design may be no structure, and their rows then say so.

@@ -23,7 +23,7 @@ from mbla.sweeps.file.read import Sweep
 from mbla.sweeps.fragility import fragility_csv, fragility_lines, fragility_of
 from mbla.sweeps.identity import library_versions, program_identity
 from mbla.sweeps.journal import SINGLE, JournalHeader, journal_name, journals_in, merged, open_journal
-from mbla.sweeps.plan import FAILED, Outcome, Plan, Task, as_named
+from mbla.sweeps.plan import FAILED, Plan, PointOutcome, Task, as_named
 from mbla.sweeps.results import result_columns
 from mbla.sweeps.tables.sweep_json import counts, sweep_json
 from mbla.sweeps.tables.sweep_table import SweepColumn, SweepTable, sweep_table, with_columns
@@ -36,7 +36,7 @@ MEGABYTE = 1e6
 RESUME = "--resume continues"
 """words on finished points in a journal"""
 
-Report = Callable[[Progress, Task | None, Outcome | None], None]
+Report = Callable[[Progress, Task | None, PointOutcome | None], None]
 """called once before the first point, with None, and after each finished point"""
 
 
@@ -202,7 +202,9 @@ def run_sweep(prepared: Prepared, options: SweepOptions, report: Report | None =
         return _finish(prepared, finished, journal.notices, time.perf_counter() - started)
 
 
-def _finish(prepared: Prepared, finished: Mapping[str, Outcome], notices: Sequence[Notice], seconds: float) -> Finished:
+def _finish(
+    prepared: Prepared, finished: Mapping[str, PointOutcome], notices: Sequence[Notice], seconds: float
+) -> Finished:
     """The table of all points, and its files once none is missing, which may be so in a shard."""
     design, keys = prepared.design, prepared.keys
     table = sweep_table(prepared.title, design, prepared.columns, finished, keys)

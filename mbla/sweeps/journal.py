@@ -31,7 +31,7 @@ from mbla.results.disk import (
     write_complete,
 )
 from mbla.sweeps.identity import difference
-from mbla.sweeps.plan import DONE, FAILED, Outcome, Plain, Task
+from mbla.sweeps.plan import DONE, FAILED, Plain, PointOutcome, Task
 from mbla.sweeps.tables.sweep_table import READ_CELL
 
 FORMAT = 3
@@ -73,7 +73,7 @@ def header_bytes(header: JournalHeader) -> bytes:
     return f"# {json.dumps({'mbla_sweep_journal': FORMAT, **asdict(header)})}\n".encode() + _line(header.all_columns)
 
 
-def row_bytes(header: JournalHeader, task: Task, outcome: Outcome) -> bytes:
+def row_bytes(header: JournalHeader, task: Task, outcome: PointOutcome) -> bytes:
     """The line of a point with its end."""
     first: list[Plain] = [outcome.key, task.number, outcome.state, outcome.exit_code, outcome.reason]
     results = [outcome.results.get(name) for name in header.columns]
@@ -88,7 +88,7 @@ def _line(cells: Sequence[Plain]) -> bytes:
     return stream.getvalue().encode("utf-8", "backslashreplace")
 
 
-def read_row(header: JournalHeader, line: bytes) -> Outcome:
+def read_row(header: JournalHeader, line: bytes) -> PointOutcome:
     """The point of a line; results that it has not are None.
 
     Raises ValueError, which says what is wrong, for an invalid line.
@@ -109,13 +109,13 @@ def read_row(header: JournalHeader, line: bytes) -> Outcome:
         }
     except KeyError as error:
         raise ValueError(f"is no row of a journal: {error}") from None
-    return Outcome(key, state, int(code), reason, results, int(tries), float(seconds))
+    return PointOutcome(key, state, int(code), reason, results, int(tries), float(seconds))
 
 
 class JournalRows(NamedTuple):
     """Finished points of a journal by key, bytes up to the end of its last complete row, and bytes after that."""
 
-    finished: dict[str, Outcome]
+    finished: dict[str, PointOutcome]
     complete: int
     torn: int
 
@@ -128,7 +128,7 @@ def read_journal(path: Path, header: JournalHeader) -> JournalRows:
     FileError
         it cannot be read, belongs to another sweep than ``header`` says, or has a broken row before the last
     """
-    finished: dict[str, Outcome] = {}
+    finished: dict[str, PointOutcome] = {}
     with file_errors(path), path.open("rb") as stream:
         complete = _check_header(path, header, stream.readline(), stream.readline())
         for number, line in enumerate(stream, start=3):
@@ -146,16 +146,16 @@ def read_journal(path: Path, header: JournalHeader) -> JournalRows:
         return JournalRows(finished, complete, os.fstat(stream.fileno()).st_size - complete)
 
 
-def keep(finished: dict[str, Outcome], outcome: Outcome) -> None:
+def keep(finished: dict[str, PointOutcome], outcome: PointOutcome) -> None:
     """The outcome in its place: the last one of a point counts, but none that failed after one that is done."""
     earlier = finished.get(outcome.key)
     if earlier is None or outcome.state != FAILED or earlier.state == FAILED:
         finished[outcome.key] = outcome
 
 
-def merged(paths: Iterable[Path], header: JournalHeader) -> dict[str, Outcome]:
+def merged(paths: Iterable[Path], header: JournalHeader) -> dict[str, PointOutcome]:
     """Finished points of several journals, each once; they are left as they are. Raises as ``read_journal``."""
-    finished: dict[str, Outcome] = {}
+    finished: dict[str, PointOutcome] = {}
     for path in paths:
         for outcome in read_journal(path, header).finished.values():
             keep(finished, outcome)
@@ -219,11 +219,11 @@ class Journal:
 
     path: Path
     header: JournalHeader
-    finished: dict[str, Outcome]
+    finished: dict[str, PointOutcome]
     notices: tuple[Notice, ...]
     descriptor: int
 
-    def add(self, task: Task, outcome: Outcome) -> None:
+    def add(self, task: Task, outcome: PointOutcome) -> None:
         """Write the row of a finished point; it is on the disk when this returns.
 
         Raises

@@ -64,7 +64,7 @@ DONE, FAILED = "done", "failed"
 
 
 @dataclass(frozen=True)
-class Outcome:
+class PointOutcome:
     """One finished point.
 
     key       : of its task
@@ -101,7 +101,7 @@ SETTING = re.compile(rf"(?<!\S){re.escape(LABEL)}:[0-9]+:[0-9]+ ")
 """place of a value that a point sets: the user did not write it; its key and value stand behind it"""
 
 
-def as_named(plan: Plan, deck: str, outcome: Outcome) -> Outcome:
+def as_named(plan: Plan, deck: str, outcome: PointOutcome) -> PointOutcome:
     """An outcome that names files as the user does, not by the folders of this machine.
 
     deck : the base deck as the sweep file names it

@@ -11,7 +11,7 @@ from mbla.deck import Deck
 from mbla.process.run_options import RunOptions
 from mbla.results.listing.text import INDENT
 from mbla.sweeps.command import Prepared, SweepOptions
-from mbla.sweeps.design.design import Design, Dimension, Point
+from mbla.sweeps.design.design import Design, DesignDimension, DesignPoint
 from mbla.sweeps.engine.engine import EngineOptions
 from mbla.sweeps.identity import PointKeys, fingerprint_of, path_in, program_identity
 from mbla.sweeps.journal import SINGLE
@@ -65,12 +65,12 @@ def prepared_study(
         timed=timed,
     )
     keys = PointKeys(plan.fingerprint, deck.path.resolve().parent, partial(path_in, deck))
-    made = tuple(Point(n, (n - 1,), (value,), own) for n, (value, own) in enumerate(points.items(), 1))
+    made = tuple(DesignPoint(n, (n - 1,), (value,), own) for n, (value, own) in enumerate(points.items(), 1))
     return Prepared(
         name=name,
         deck=deck.path.name,
         title=deck.title,
-        design=Design((column,), (Dimension(column.dimension, len(made)),), made, (tuple(points),)),
+        design=Design((column,), (DesignDimension(column.dimension, len(made)),), made, (tuple(points),)),
         keys=tuple(map(keys.of, points.values())),
         columns=result_columns(plan.results, plan.cases, deck.units),
         plan=plan,

@@ -20,10 +20,10 @@ def main() -> None:
     """As the real process."""
     from mbla.sweeps.engine import child
     from mbla.sweeps.engine.child import PointRunner
-    from mbla.sweeps.plan import Outcome, Plain, Task
+    from mbla.sweeps.plan import Plain, PointOutcome, Task
 
     class Faulty(PointRunner):
-        def run(self, task: Task) -> Outcome:
+        def run(self, task: Task) -> PointOutcome:
             with Path(os.environ[LOG]).open("a", encoding="ascii") as log:
                 log.write(f"{task.number}\n")
             if task.number == KILLS:

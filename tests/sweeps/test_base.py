@@ -14,7 +14,7 @@ from mbla.errors import DeckError
 from mbla.model.blocks.arch import ArchItem
 from mbla.sweeps.base import Base, check_points
 from mbla.sweeps.design.build import design_of
-from mbla.sweeps.design.design import Point
+from mbla.sweeps.design.design import DesignPoint
 from mbla.sweeps.identity import PointKeys, fingerprint_of, key_hash, path_in
 from mbla.sweeps.plan import override_texts
 from tests.deck.decks import write
@@ -101,7 +101,7 @@ parameters:
     assert base_of(tmp_path, text).units["w"] == ""
 
 
-def points_of(base: Base) -> tuple[Point, ...]:
+def points_of(base: Base) -> tuple[DesignPoint, ...]:
     return design_of(base.sources).points
 
 

@@ -13,9 +13,9 @@ from scipy.stats import binomtest, lognorm, norm
 from mbla.arrays import FloatArray
 from mbla.deck.units import Units
 from mbla.results.record.json_values import json_line
-from mbla.sweeps.design.design import Design, Dimension, Point, SweepColumn
+from mbla.sweeps.design.design import Design, DesignDimension, DesignPoint, SweepColumn
 from mbla.sweeps.fragility import fragility_csv, fragility_lines, fragility_of, interval
-from mbla.sweeps.plan import DONE, FAILED, Outcome
+from mbla.sweeps.plan import DONE, FAILED, PointOutcome
 from mbla.sweeps.results import result_columns
 from mbla.sweeps.tables.sweep_table import SweepTable, sweep_table
 
@@ -34,16 +34,16 @@ def table_of(
     thick = list(thickness) or [0.0]
     outside = [SweepColumn("t", "m", "thickness", "float", "parameter", "t")] if thickness else []
     columns = (*outside, SweepColumn("mu", "", "friction", "float", "parameter", "sample", random=True))
-    dimensions = (*([Dimension("t", len(thick))] if thickness else []), Dimension("sample", len(points[0])))
-    design: list[Point] = []
-    outcomes: dict[str, Outcome] = {}
+    dimensions = (*([DesignDimension("t", len(thick))] if thickness else []), DesignDimension("sample", len(points[0])))
+    design: list[DesignPoint] = []
+    outcomes: dict[str, PointOutcome] = {}
     for row, each in enumerate(points):
         for place, (state, status, factor) in enumerate(each):
             key = f"{row} {place}"
             results = {"status": status, "load_factor": factor, "mechanism.moving_weight_share": factor}
-            outcomes[key] = Outcome(key, state, 0, "", results, 1, 0.1)
+            outcomes[key] = PointOutcome(key, state, 0, "", results, 1, 0.1)
             at, values = ((row,), (thick[row],)) if thickness else ((), ())
-            design.append(Point(len(design) + 1, (*at, place), (*values, 0.5), {}))
+            design.append(DesignPoint(len(design) + 1, (*at, place), (*values, 0.5), {}))
     levels = (*([tuple(thick)] if thickness else []), (0.5,) * len(points[0]))
     return sweep_table(
         "",

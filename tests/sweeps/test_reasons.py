@@ -9,7 +9,7 @@ import pytest
 
 from mbla.sweeps.command import SweepOptions, prepare, run_sweep
 from mbla.sweeps.file.read import read_sweep
-from mbla.sweeps.plan import FAILED, Outcome, Plan, as_named
+from mbla.sweeps.plan import FAILED, Plan, PointOutcome, as_named
 from tests.line import BLOCK
 
 SWEEP = """\
@@ -41,7 +41,7 @@ def plan_in(folder: str, deck: str) -> Plan:
     ],
 )
 def test_files_have_the_names_that_the_sweep_file_gives_them(deck: str, named: str, reason: str, shown: str) -> None:
-    outcome = Outcome("key", FAILED, 3, reason, {}, 1, 0.0)
+    outcome = PointOutcome("key", FAILED, 3, reason, {}, 1, 0.0)
     assert as_named(plan_in("/a/b/s.out", deck), named, outcome).reason == shown
 
 

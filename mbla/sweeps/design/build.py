@@ -13,10 +13,10 @@ from mbla.arrays import BoolArray
 from mbla.errors import DeckError, Fault, Message
 from mbla.results.listing.text import counted
 from mbla.sweeps.design.constraints import constrained
-from mbla.sweeps.design.design import Axis, Design, Dimension, Point, Sources
+from mbla.sweeps.design.design import Design, DesignAxis, DesignDimension, DesignPoint, Sources
 from mbla.sweeps.design.sampling import quantiles
 from mbla.sweeps.design.ways import WayError, columns_of, filled, grid_quantiles
-from mbla.sweeps.file.content import RANDOM, SAMPLED, Part, design_parts, key_paths, way_of
+from mbla.sweeps.file.content import RANDOM, SAMPLED, PartOfDesign, design_parts, key_paths, way_of
 from mbla.sweeps.plan import Plain
 
 RANGES = ("linear", "log", "horizon")
@@ -51,20 +51,20 @@ def design_of(sources: Sources) -> Design:
     )
 
 
-def _points(axes: Sequence[Axis], positions: Sequence[Sequence[int]]) -> list[Point]:
+def _points(axes: Sequence[DesignAxis], positions: Sequence[Sequence[int]]) -> list[DesignPoint]:
     """Points at positions, numbered in their order."""
-    points: list[Point] = []
+    points: list[DesignPoint] = []
     for number, position in enumerate(positions, start=1):
         values: tuple[Plain, ...] = ()
         settings: dict[str, Plain] = {}
         for axis, place in zip(axes, position, strict=True):
             values += axis.values[place]
             settings.update(axis.settings[place])
-        points.append(Point(number, tuple(position), values, settings))
+        points.append(DesignPoint(number, tuple(position), values, settings))
     return points
 
 
-def _remarks(axes: Sequence[Axis], keep: BoolArray) -> list[str]:
+def _remarks(axes: Sequence[DesignAxis], keep: BoolArray) -> list[str]:
     """Remarks on samples."""
     remarks: list[str] = []
     samples = [axis for axis in axes if axis.sampling]
@@ -95,10 +95,10 @@ def _remarks(axes: Sequence[Axis], keep: BoolArray) -> list[str]:
 # --- axes -------------------------------------------------------------------------------------------------------------
 
 
-def _axes_of(sources: Sources) -> tuple[list[tuple[Part, tuple[str, ...]]], list[Axis]]:
+def _axes_of(sources: Sources) -> tuple[list[tuple[PartOfDesign, tuple[str, ...]]], list[DesignAxis]]:
     """Parts of the design, each with the names of its axes, and the axes, slowest first."""
-    parts_made: list[tuple[Part, tuple[str, ...]]] = []
-    axes: list[Axis] = []
+    parts_made: list[tuple[PartOfDesign, tuple[str, ...]]] = []
+    axes: list[DesignAxis] = []
     faults: list[Fault] = []
     taken = set(sources.content.parameters)
     for part in design_parts(sources.content):
@@ -116,7 +116,7 @@ def _axes_of(sources: Sources) -> tuple[list[tuple[Part, tuple[str, ...]]], list
     return parts_made, axes
 
 
-def _axes_of_part(sources: Sources, part: Part, together: str) -> list[Axis]:
+def _axes_of_part(sources: Sources, part: PartOfDesign, together: str) -> list[DesignAxis]:
     """The axes of one part; ``together``: name of that of parameters which change together."""
     parameters, sampled = sources.content.parameters, part.kind in SAMPLED
     columns = {
@@ -125,7 +125,7 @@ def _axes_of_part(sources: Sources, part: Part, together: str) -> list[Axis]:
     }
     streams = [column.name for own in columns.values() for column in own]
     drawn = iter(quantiles(part.kind, part.points, part.seed or 0, streams).T) if sampled else iter(())
-    axes: list[Axis] = []
+    axes: list[DesignAxis] = []
     faults: list[Fault] = []
     for name, own in columns.items():
         key, keys = way_of(parameters[name]), key_paths(name, parameters[name])
@@ -139,13 +139,13 @@ def _axes_of_part(sources: Sources, part: Part, together: str) -> list[Axis]:
             faults.append(sources.fault_at(("parameters", name, key), error.message))
         else:
             rows, into = tuple(zip(*values, strict=True)), tuple(dict.fromkeys(keys, value) for value in settings)
-            axes.append(Axis(Dimension(name, len(rows)), own, rows, into))
+            axes.append(DesignAxis(DesignDimension(name, len(rows)), own, rows, into))
     if faults:
         raise DeckError(faults)
     return axes if part.kind == "grid" else [_joined(together, axes, part.kind if sampled else "")]
 
 
-def _joined(name: str, axes: Sequence[Axis], sampling: str) -> Axis:
+def _joined(name: str, axes: Sequence[DesignAxis], sampling: str) -> DesignAxis:
     """One axis along which several change together."""
     columns = tuple(replace(column, dimension=name) for axis in axes for column in axis.columns)
     values = [sum(rows, ()) for rows in zip(*(axis.values for axis in axes), strict=True)]
@@ -154,4 +154,6 @@ def _joined(name: str, axes: Sequence[Axis], sampling: str) -> Axis:
         for rows in zip(*(axis.settings for axis in axes), strict=True)
     ]
     random = all(column.random for column in columns)
-    return Axis(Dimension(name, len(values)), columns, tuple(values), tuple(settings), sampling if random else "")
+    return DesignAxis(
+        DesignDimension(name, len(values)), columns, tuple(values), tuple(settings), sampling if random else ""
+    )

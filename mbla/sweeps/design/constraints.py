@@ -23,14 +23,14 @@ from mbla.deck.expressions import (
 )
 from mbla.deck.suggestions import unknown
 from mbla.errors import DeckError, Fault
-from mbla.sweeps.design.design import Axis, FaultAt
+from mbla.sweeps.design.design import DesignAxis, FaultAt
 
 OF_DECK = "parameters."
 """begins the key paths of the deck's own parameters"""
 
 
 def constrained(
-    constraints: Sequence[str], axes: Sequence[Axis], known: Mapping[str, object], fault_at: FaultAt
+    constraints: Sequence[str], axes: Sequence[DesignAxis], known: Mapping[str, object], fault_at: FaultAt
 ) -> tuple[BoolArray, tuple[tuple[str, int], ...]]:
     """Which points stay, and every constraint with how many points break it.
 
@@ -59,7 +59,7 @@ def constrained(
     return keep, tuple(breaches)
 
 
-def _holds(comparison: Comparison, axes: Sequence[Axis], known: Mapping[str, object]) -> BoolArray:
+def _holds(comparison: Comparison, axes: Sequence[DesignAxis], known: Mapping[str, object]) -> BoolArray:
     """Whether a comparison is true along the axes that it depends on; one position along the others."""
     columns = {column.name: column for axis in axes for column in axis.columns}
     replaced = {name for axis in axes for name in _of_deck(axis.settings[0])}
@@ -85,7 +85,7 @@ def _holds(comparison: Comparison, axes: Sequence[Axis], known: Mapping[str, obj
     return np.array(holds, dtype=bool).reshape([len(of_axis) for of_axis in rows])
 
 
-def _rows(axis: Axis, names: set[str]) -> list[dict[str, object]]:
+def _rows(axis: DesignAxis, names: set[str]) -> list[dict[str, object]]:
     """Values of these names and of the deck's own parameters at each position along an axis; one row if it has none."""
     columns = [column.name for column in axis.columns]
     rows = [

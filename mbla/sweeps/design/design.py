@@ -10,7 +10,7 @@ from mbla.deck.suggestions import listed
 from mbla.deck.text.tree import KeyPath
 from mbla.errors import Fault, Message
 from mbla.results.listing.text import INDENT, counted, entry, heading, sentence, shortened, table
-from mbla.sweeps.file.content import Part, SweepContent
+from mbla.sweeps.file.content import PartOfDesign, SweepContent
 from mbla.sweeps.plan import Plain
 
 FaultAt: TypeAlias = Callable[[KeyPath, Message], Fault]
@@ -75,7 +75,7 @@ def header_of(name: str, unit: str) -> str:
 
 
 @dataclass(frozen=True)
-class Dimension:
+class DesignDimension:
     """An axis of the design: a parameter of a grid, or a set of points that change several parameters together.
 
     name : the parameter's, or that of the kind of design (``zip``, ``sobol``, ...)
@@ -87,7 +87,7 @@ class Dimension:
 
 
 @dataclass(frozen=True)
-class Axis:
+class DesignAxis:
     """An axis with what the design has at each position along it.
 
     columns  : those that change along it
@@ -96,7 +96,7 @@ class Axis:
     sampling : kind of design whose points are a random sample of distributions; empty otherwise
     """
 
-    dimension: Dimension
+    dimension: DesignDimension
     columns: tuple[SweepColumn, ...]
     values: tuple[tuple[Plain, ...], ...]
     settings: tuple[Mapping[str, Plain], ...]
@@ -104,7 +104,7 @@ class Axis:
 
 
 @dataclass(frozen=True, slots=True)
-class Point:
+class DesignPoint:
     """One point.
 
     number   : from 1, in the order of the design; those that constraints leave out have none
@@ -134,13 +134,13 @@ class Design:
     """
 
     columns: tuple[SweepColumn, ...]
-    dimensions: tuple[Dimension, ...]
-    points: tuple[Point, ...]
+    dimensions: tuple[DesignDimension, ...]
+    points: tuple[DesignPoint, ...]
     levels: tuple[tuple[Plain, ...], ...]
     left_out: int = 0
     samples: str = ""
     sampling: str = ""
-    parts: tuple[tuple[Part, tuple[str, ...]], ...] = ()
+    parts: tuple[tuple[PartOfDesign, tuple[str, ...]], ...] = ()
     breaches: tuple[tuple[str, int], ...] = ()
     remarks: tuple[str, ...] = ()
 
@@ -195,7 +195,7 @@ def design_lines(design: Design) -> list[str]:
     return [*lines, *heading("Points"), *table(head, rows, left=0)]
 
 
-def _part_words(part: Part, dimensions: Sequence[str], sizes: dict[str, int]) -> str:
+def _part_words(part: PartOfDesign, dimensions: Sequence[str], sizes: dict[str, int]) -> str:
     if part.kind == "grid":
         return " × ".join(f"{name} ({sizes[name]})" for name in dimensions)
     together = f"{listed(part.parameters, 'and')}: {counted(sizes[dimensions[0]], 'point')}"

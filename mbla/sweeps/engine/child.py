@@ -39,7 +39,7 @@ from mbla.results.write import write_results
 from mbla.run import solve_deck
 from mbla.solution.standing.standing import StressFreeStates
 from mbla.sweeps.identity import fingerprint_of, program_identity
-from mbla.sweeps.plan import DONE, FAILED, Outcome, Plain, Plan, Task, override_texts
+from mbla.sweeps.plan import DONE, FAILED, Plain, Plan, PointOutcome, Task, override_texts
 from mbla.sweeps.results import reason_of, result_places, values_of
 
 STAGES = ("deck", "model", "contacts", "program", "solution", "results.collapse")
@@ -172,7 +172,7 @@ class PointRunner:
         self._files = read_files(Path(plan.deck))
         self._places = result_places(plan.results, plan.cases)
 
-    def run(self, task: Task) -> Outcome:
+    def run(self, task: Task) -> PointOutcome:
         """Solve one point; what goes wrong with it is in the outcome."""
         started = time.perf_counter()
         results: dict[str, Plain] = {}
@@ -180,7 +180,7 @@ class PointRunner:
             code, reason, results = self._shared(task)
         except Exception as error:
             code, reason = words_of(error)
-        return Outcome(task.key, state_of(code), code, reason, results, 1, time.perf_counter() - started)
+        return PointOutcome(task.key, state_of(code), code, reason, results, 1, time.perf_counter() - started)
 
     def _shared(self, task: Task) -> tuple[int, str, dict[str, Plain]]:
         """Solve it with what earlier points left; without, where that leaves too little memory for this one."""

@@ -16,7 +16,7 @@ from pathlib import Path
 from mbla.errors import UsageError
 from mbla.sweeps.engine.processes import NOT_BEGUN as NOT_BEGUN
 from mbla.sweeps.engine.processes import Processes
-from mbla.sweeps.plan import FAILED, Outcome, Plan, Task
+from mbla.sweeps.plan import FAILED, Plan, PointOutcome, Task
 
 PATIENCE = 60.0
 """seconds to wait for a scheduler and its first worker"""
@@ -60,7 +60,7 @@ class Pool:
     """
 
     executor: Executor
-    run: Callable[[Plan, Task], Outcome]
+    run: Callable[[Plan, Task], PointOutcome]
     threads: Callable[[], int]
     given_up: tuple[type[Exception], ...] = ()
 
@@ -85,7 +85,7 @@ def check_options(options: EngineOptions) -> None:
         raise UsageError("extra-missing", MISSING)
 
 
-def outcomes_of(options: EngineOptions, plan: Plan, tasks: Sequence[Task]) -> Generator[Outcome, None, None]:
+def outcomes_of(options: EngineOptions, plan: Plan, tasks: Sequence[Task]) -> Generator[PointOutcome, None, None]:
     """Outcomes in the order in which they are done; one for every task, also where its worker died.
 
     Tasks are begun in their order. Closing the iterator stops what is under way.
@@ -97,7 +97,7 @@ def outcomes_of(options: EngineOptions, plan: Plan, tasks: Sequence[Task]) -> Ge
     FileError
         the scheduler is gone
     """
-    left, running = iter(tasks), dict[Future[Outcome], Task]()
+    left, running = iter(tasks), dict[Future[PointOutcome], Task]()
     with _pool_of(options, plan) as pool:
         while True:
             for task in islice(left, max(WINDOW * max(pool.threads(), 1) - len(running), 0)):
@@ -110,7 +110,7 @@ def outcomes_of(options: EngineOptions, plan: Plan, tasks: Sequence[Task]) -> Ge
                     outcome = future.result()
                 except pool.given_up as error:
                     tries = 1 + int(getattr(error, "allowed_failures", 0))
-                    outcome = Outcome(task.key, FAILED, 1, GIVEN_UP, {}, tries, 0.0)
+                    outcome = PointOutcome(task.key, FAILED, 1, GIVEN_UP, {}, tries, 0.0)
                 yield outcome
 
 

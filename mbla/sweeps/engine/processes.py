@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from mbla.errors import LimitError, UsageError
 from mbla.sweeps.engine.supervised import StoppedError, SupervisedRunner
 from mbla.sweeps.identity import difference, library_versions
-from mbla.sweeps.plan import FAILED, Outcome, Plan, Task
+from mbla.sweeps.plan import FAILED, Plan, PointOutcome, Task
 
 NOT_BEGUN = "not run: the time limit was over"
 """reason of a point that was not begun"""
@@ -29,10 +29,10 @@ class Processes:
         self._lock = threading.Lock()
         self._ended = False
 
-    def run(self, plan: Plan, task: Task) -> Outcome:
+    def run(self, plan: Plan, task: Task) -> PointOutcome:
         """Solve a point in the process of this thread; raises as ``SupervisedRunner.run``."""
         if self._until is not None and time.monotonic() >= self._until:
-            return Outcome(task.key, FAILED, LimitError.exit_status, NOT_BEGUN, {}, 0, 0.0)
+            return PointOutcome(task.key, FAILED, LimitError.exit_status, NOT_BEGUN, {}, 0, 0.0)
         return self._of_this_thread(plan).run(task)
 
     def _of_this_thread(self, plan: Plan) -> SupervisedRunner:
@@ -66,7 +66,7 @@ ON_WORKER = Processes()
 """of a worker of a cluster; a process ends by itself where the client that would end it is gone"""
 
 
-def run_on_worker(plan: Plan, task: Task, libraries: Mapping[str, str]) -> Outcome:
+def run_on_worker(plan: Plan, task: Task, libraries: Mapping[str, str]) -> PointOutcome:
     """Solve a point on a worker of a cluster, which calls this by its import path.
 
     libraries : versions that the client has

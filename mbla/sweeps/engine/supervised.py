@@ -23,7 +23,7 @@ from types import TracebackType
 from typing import IO, Any
 
 from mbla.errors import LimitError, UsageError
-from mbla.sweeps.plan import FAILED, Outcome, Plan, Task
+from mbla.sweeps.plan import FAILED, Plan, PointOutcome, Task
 
 COMMAND = (sys.executable, "-P", "-m", "mbla.sweeps.engine.child")
 PACKAGES = Path(__file__).parents[3]
@@ -93,7 +93,7 @@ class SupervisedRunner:
             self._stop()
             self._at_work.release()
 
-    def run(self, task: Task) -> Outcome:
+    def run(self, task: Task) -> PointOutcome:
         """Solve one point.
 
         A process that died is replaced and the point tried once more. So is one that met the limit on memory unless
@@ -117,16 +117,16 @@ class SupervisedRunner:
                     return replace(outcome, tries=tries)
         raise AssertionError  # the last try always returns
 
-    def _attempt(self, task: Task, fresh: bool) -> tuple[Outcome, bool]:
+    def _attempt(self, task: Task, fresh: bool) -> tuple[PointOutcome, bool]:
         """What comes of a point, and whether that is all that can come of it; ``fresh``: it is its process's first."""
         started, limit = time.monotonic(), self.plan.time_limit
         ends = [end for end in (None if limit is None else started + limit, self._until) if end is not None]
 
-        def failed(code: int, words: str) -> Outcome:
-            return Outcome(task.key, FAILED, code, words, {}, 1, time.monotonic() - started)
+        def failed(code: int, words: str) -> PointOutcome:
+            return PointOutcome(task.key, FAILED, code, words, {}, 1, time.monotonic() - started)
 
         try:
-            outcome: Outcome = self._ask(task, min(ends, default=None))
+            outcome: PointOutcome = self._ask(task, min(ends, default=None))
         except TimeoutError:
             self._stop()
             own = limit is not None and time.monotonic() >= started + limit

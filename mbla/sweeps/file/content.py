@@ -184,7 +184,7 @@ class LimitsSection(Section):
     )
 
 
-class OutputSection(Section):
+class SweepOutputSection(Section):
     """What is written in addition to the table."""
 
     files: Literal["none", "failed", "all"] = Field(
@@ -237,7 +237,9 @@ class SweepContent(Section):
         description="columns: key paths in the JSON object of a load case, or of the run with model., settings., time.",
     )
     limits: LimitsSection = Field(default_factory=LimitsSection, description="what one point may take")
-    output: OutputSection = Field(default_factory=OutputSection, description="what is written in addition to the table")
+    output: SweepOutputSection = Field(
+        default_factory=SweepOutputSection, description="what is written in addition to the table"
+    )
     fragility: FragilitySection | None = Field(None, description="probability of collapse below a demand")
 
 
@@ -275,7 +277,7 @@ KINDS = tuple(DesignPart.model_fields)
 
 
 @dataclass(frozen=True)
-class Part:
+class PartOfDesign:
     """A part of the design; every point of it is combined with every point of the others.
 
     kind       : ``grid``, ``zip``, ``random``, ``latin_hypercube`` or ``sobol``
@@ -294,14 +296,14 @@ class Part:
     seed: int | None = None
 
 
-def design_parts(content: SweepContent) -> tuple[Part, ...]:
+def design_parts(content: SweepContent) -> tuple[PartOfDesign, ...]:
     """Parts in their order; a grid of all parameters where the file gives none.
 
     Names that are no parameters are left out here, and a second part without `of` is empty: both are reported where
     the file is read.
     """
     if content.design is None:
-        return (Part("grid", tuple(content.parameters), ("parameters",)),)
+        return (PartOfDesign("grid", tuple(content.parameters), ("parameters",)),)
     sections = [(kind, getattr(each, kind)) for each in content.design for kind in KINDS if getattr(each, kind)]
     named = {name for _, section in sections for name in section.of or ()}
     rest = tuple(name for name in content.parameters if name not in named)
@@ -309,11 +311,11 @@ def design_parts(content: SweepContent) -> tuple[Part, ...]:
     for index, (kind, section) in enumerate(sections):
         names = rest if section.of is None else tuple(name for name in section.of if name in content.parameters)
         sampled = (section.points, section.seed) if isinstance(section, Sampled) else ()
-        parts.append(Part(kind, names, ("design", index, kind), section.of, *sampled))
+        parts.append(PartOfDesign(kind, names, ("design", index, kind), section.of, *sampled))
         rest = () if section.of is None else rest
     return tuple(parts)
 
 
-def is_random(part: Part, content: SweepContent) -> bool:
+def is_random(part: PartOfDesign, content: SweepContent) -> bool:
     """Whether the points of a part are a random sample: drawn, and every parameter with a probability."""
     return part.kind in SAMPLED and all(way_of(content.parameters[name]) in RANDOM for name in part.parameters)

@@ -25,7 +25,7 @@ from mbla.sweeps.file.content import (
     WAYS,
     WITH_POINTS,
     Parameter,
-    Part,
+    PartOfDesign,
     SweepContent,
     design_parts,
     is_random,
@@ -243,7 +243,7 @@ def number_of_points(sweep: SweepContent) -> Iterator[Finding]:
         )
 
 
-def _size(sweep: SweepContent, part: Part) -> int | None:
+def _size(sweep: SweepContent, part: PartOfDesign) -> int | None:
     """Points of a part; None where that is at fault."""
     if part.kind in SAMPLED:
         return part.points

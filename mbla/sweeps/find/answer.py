@@ -32,7 +32,7 @@ from mbla.solution.settings import solver_settings
 from mbla.solution.solution import Checks, Standing, StandingResult, Status
 from mbla.solution.standing.standing import standing_where_carried
 from mbla.solution.thresholds import SOLVED_RESIDUAL
-from mbla.sweeps.find.question import Question
+from mbla.sweeps.find.question import FindQuestion
 
 SAME = 1e-7
 """Difference of load factors, relative, that is none"""
@@ -50,7 +50,7 @@ WITHOUT_SIZE = {
 
 
 @dataclass(frozen=True)
-class Answer:
+class Evaluation:
     """The result for one value.
 
     x        : the value
@@ -77,7 +77,7 @@ class Answer:
     uncertainty: float = 0.0
 
 
-def answer_at(deck: Deck, question: Question, x: float, contacts: KnownContacts | None = None) -> Answer:
+def answer_at(deck: Deck, question: FindQuestion, x: float, contacts: KnownContacts | None = None) -> Evaluation:
     """The result for a value; a deck that is refused with it has none, and says why.
 
     contacts : of the value before, in whose place those of this one are kept
@@ -85,18 +85,20 @@ def answer_at(deck: Deck, question: Question, x: float, contacts: KnownContacts 
     try:
         varied, structure = _structure(deck, question, f"{question.parameter}={x!r}", contacts=contacts)
     except DeckError as error:
-        return Answer(x, math.nan, math.nan, math.nan, REFUSED, verified=False, words=str(error.faults[0]), solves=0)
+        return Evaluation(
+            x, math.nan, math.nan, math.nan, REFUSED, verified=False, words=str(error.faults[0]), solves=0
+        )
     answer = _stands if question.kind == "stands" else _factor
     return answer(varied, question, structure, x)
 
 
-def refuse_unfit_deck(deck: Deck, question: Question) -> None:
+def refuse_unfit_deck(deck: Deck, question: FindQuestion) -> None:
     """Raises DeckError with the faults that the deck has as it stands, where it has some."""
     _structure(deck, question)
 
 
 def _structure(
-    deck: Deck, question: Question, *overrides: str, contacts: KnownContacts | None = None
+    deck: Deck, question: FindQuestion, *overrides: str, contacts: KnownContacts | None = None
 ) -> tuple[Deck, Structure]:
     """The deck with some values changed, and its structure; raises DeckError where it is refused."""
     varied = read_deck_text(deck.sources[0].text, deck.path, (*deck.overrides, *overrides), expected=False)
@@ -104,7 +106,7 @@ def _structure(
     return varied, Structure(build_assembly(varied, model, contacts), _case(model, question))
 
 
-def _case(model: Model, question: Question) -> LoadCase:
+def _case(model: Model, question: FindQuestion) -> LoadCase:
     """Raises UsageError for one that has several answers, or another than is looked for."""
     cases = select_cases(model, (question.load_case,))
     name, case = question.load_case, cases[0]
@@ -121,26 +123,28 @@ def _case(model: Model, question: Question) -> LoadCase:
 # --- load factors ---------------------------------------------------------------------------------------------------
 
 
-def _factor(deck: Deck, question: Question, structure: Structure, x: float) -> Answer:
+def _factor(deck: Deck, question: FindQuestion, structure: Structure, x: float) -> Evaluation:
     """A load factor of the load case, as ``mbla run`` gives it."""
     log = StatusFile(io.StringIO(), deck.title)
     case = solve_case(deck, structure.assembly, structure.load_case, solver_settings(deck.analysis), log, None)
     status, verified = case.status.value, case.checks.verified
     if case.status in (Status.NO_EQUILIBRIUM, Status.UNBOUNDED):
         side = -math.inf if case.status is Status.NO_EQUILIBRIUM else math.inf
-        return Answer(x, math.nan, side, math.nan, status, verified, case.solution.reason)
+        return Evaluation(x, math.nan, side, math.nan, status, verified, case.solution.reason)
     own = result_of(case)
     if locked_in(case):  # from the stress-free assembly it falls under no live load at all
-        return Answer(x, math.nan, -math.inf, math.nan, Standing.SELF_STRESS.value, verified, case.solution.reason)
+        return Evaluation(x, math.nan, -math.inf, math.nan, Standing.SELF_STRESS.value, verified, case.solution.reason)
     if own is None:
-        return Answer(x, math.nan, math.nan, math.nan, status, verified, case.solution.reason or "it is not verified")
+        return Evaluation(
+            x, math.nan, math.nan, math.nan, status, verified, case.solution.reason or "it is not verified"
+        )
     result = least_known(case) if question.kind == "least_load_factor" else own.load_factor
     slope, bounds, associative = math.nan, (math.nan, math.nan), case.solution.associative
     if associative is not None and math.isclose(associative.load_factor, result, rel_tol=SAME):
         bounds = case.checks.static_bound, case.checks.kinematic_bound
         slope = _slope(deck, question, replace(structure, load_case=case.load_case), case)
     uncertainty = max(_rounding(case.checks, bounds) * max(abs(result), abs(question.target)), _farther(result, bounds))
-    return Answer(x, result, result - question.target, slope, status, verified, "", 1, bounds, uncertainty)
+    return Evaluation(x, result, result - question.target, slope, status, verified, "", 1, bounds, uncertainty)
 
 
 def _rounding(checks: Checks, bounds: tuple[float, float]) -> float:
@@ -153,7 +157,7 @@ def _farther(result: float, bounds: tuple[float, float]) -> float:
     return max(0.0, result - bounds[0], bounds[1] - result)
 
 
-def _slope(deck: Deck, question: Question, structure: Structure, case: CaseResult) -> float:
+def _slope(deck: Deck, question: FindQuestion, structure: Structure, case: CaseResult) -> float:
     """Of an associative load factor; nan where it has none.
 
     It is also that of a load factor without dilatancy that is the same: that is never above the associative one, so
@@ -165,14 +169,14 @@ def _slope(deck: Deck, question: Question, structure: Structure, case: CaseResul
 # --- standing -------------------------------------------------------------------------------------------------------
 
 
-def _stands(deck: Deck, question: Question, structure: Structure, x: float) -> Answer:
+def _stands(deck: Deck, question: FindQuestion, structure: Structure, x: float) -> Evaluation:
     """The greatest pressure in all joints that is carried with the dead load, and on which side of nothing it is."""
     found = joint_pressure(structure, deck.analysis)
     value, (least, most), verified = found.value, found.bounds, found.checks.verified
     if not math.isfinite(value):
         side = found.status.value if math.isnan(value) else "stands" if value > 0.0 else "does not stand"
         words = WITHOUT_SIZE.get(value) or found.solution.reason or "it is not verified"
-        return Answer(x, math.nan, value, math.nan, side, verified, words, found.solves)
+        return Evaluation(x, math.nan, value, math.nan, side, verified, words, found.solves)
     stands = "stands" if least >= 0.0 else "does not stand" if most < 0.0 else "at the limit"
 
     def posed(other: Structure) -> Structure:
@@ -181,10 +185,10 @@ def _stands(deck: Deck, question: Question, structure: Structure, x: float) -> A
     own, unit = slope_by(deck, found.posed, found.solution, found.checks, question.path, posed), found.unit
     value, least, most = unit * value, unit * least, unit * most  # its unit changes with the structure
     uncertainty = _farther(value, (least, most))
-    return Answer(x, value, value, unit * own, stands, verified, "", found.solves, (least, most), uncertainty)
+    return Evaluation(x, value, value, unit * own, stands, verified, "", found.solves, (least, most), uncertainty)
 
 
-def standing_at(deck: Deck, question: Question, x: float) -> StandingResult:
+def standing_at(deck: Deck, question: FindQuestion, x: float) -> StandingResult:
     """Whether it stands from the stress-free assembly for a value at which some forces carry the dead load."""
     varied, structure = _structure(deck, question, f"{question.parameter}={x!r}")
     settings = solver_settings(varied.analysis)

@@ -22,7 +22,7 @@ TARGETS = {
 
 
 @dataclass(frozen=True)
-class Question:
+class FindQuestion:
     """The value of a parameter between two bounds at which a result is a target.
 
     parameter : key path as ``--set`` takes it
@@ -51,7 +51,7 @@ class Question:
         return self.tolerance * max(map(abs, self.bounds))
 
 
-def question_of(deck: Deck, options: Any) -> Question:
+def question_of(deck: Deck, options: Any) -> FindQuestion:
     """The question that deck and options ask; raises UsageError where they leave it open or contradict themselves.
 
     options : ``parameter``, ``target``, ``bounds``, ``case``, ``scan``, ``tolerance``; each None for that of the deck
@@ -81,7 +81,7 @@ def question_of(deck: Deck, options: Any) -> Question:
     faults += [] if load_case else [f"--case is needed: the deck has {', '.join(deck.content.load_cases)}"]
     if faults or isinstance(path, str):
         raise UsageError("find-option", "\n".join(faults))
-    return Question(
+    return FindQuestion(
         parameter=".".join(map(str, path)),
         path=path,
         unit=unit_of([path], deck.units),

@@ -14,8 +14,8 @@ from mbla.results.record.json_values import as_json
 from mbla.solution.further.zeros.samples import Zero
 from mbla.solution.further.zeros.zeros import find_zeros, is_level, scan
 from mbla.solution.solution import Standing, StandingResult
-from mbla.sweeps.find.answer import REFUSED, Answer, answer_at, refuse_unfit_deck, standing_at
-from mbla.sweeps.find.question import TARGETS, Question, question_of
+from mbla.sweeps.find.answer import REFUSED, Evaluation, answer_at, refuse_unfit_deck, standing_at
+from mbla.sweeps.find.question import TARGETS, FindQuestion, question_of
 
 FOUND, IN_DOUBT, NOTHING = 0, 4, 5
 """exit status: every value verified; one that is not, that is a jump of the load factor or no limit of standing, or
@@ -23,7 +23,7 @@ nothing found and something not known; the target neither passed nor met between
 
 
 @dataclass(frozen=True)
-class Finding:
+class FindResult:
     """What was found.
 
     answers : in the order in which they were looked for
@@ -32,10 +32,10 @@ class Finding:
     standing : of ``stands``, at each zero on the side that stands: whether it does from the stress-free assembly
     """
 
-    question: Question
-    answers: tuple[Answer, ...]
-    zeros: tuple[Zero[Answer], ...]
-    scanned: tuple[Answer, ...]
+    question: FindQuestion
+    answers: tuple[Evaluation, ...]
+    zeros: tuple[Zero[Evaluation], ...]
+    scanned: tuple[Evaluation, ...]
     standing: tuple[StandingResult, ...]
 
     @property
@@ -53,7 +53,7 @@ class Finding:
         return FOUND if sound and all(each.verdict is Standing.YES for each in self.standing) else IN_DOUBT
 
     @property
-    def unknown(self) -> tuple[Answer, ...]:
+    def unknown(self) -> tuple[Evaluation, ...]:
         """Steps at which not even the side is known."""
         return tuple(each for each in self.scanned if math.isnan(each.y))
 
@@ -154,18 +154,18 @@ UNKNOWN = (
 )
 
 
-def _sure(zero: Zero[Answer]) -> bool:
+def _sure(zero: Zero[Evaluation]) -> bool:
     """Whether the search came to its end and the answer that counts is verified: of jump or stretch both ends."""
     answers = zero.bracket if zero.jumps else zero.stretch or (zero.best,)
     return zero.complete and all(each.verified for each in answers)
 
 
-def _answer_json(answer: Answer) -> dict[str, Any]:
+def _answer_json(answer: Evaluation) -> dict[str, Any]:
     names = ("result", "slope", "status", "verified", "words", "bounds")
     return {name: as_json(getattr(answer, name)) for name in names} | {"known": as_json(answer.uncertainty)}
 
 
-def _found_words(question: Question, zero: Zero[Answer], standing: StandingResult | None) -> str:
+def _found_words(question: FindQuestion, zero: Zero[Evaluation], standing: StandingResult | None) -> str:
     """Value or stretch, error, which way the result goes, and how sure it is."""
     says = _value_words(question, zero, standing) if zero.stretch is None else _stretch_words(question, zero, standing)
     if not zero.complete:
@@ -175,7 +175,7 @@ def _found_words(question: Question, zero: Zero[Answer], standing: StandingResul
     return f"{says}; mbla run --set {question.parameter}={zero.best.x!r} shows it."
 
 
-def _value_words(question: Question, zero: Zero[Answer], standing: StandingResult | None) -> str:
+def _value_words(question: FindQuestion, zero: Zero[Evaluation], standing: StandingResult | None) -> str:
     first, last = sorted(zero.bracket, key=lambda each: each.x)
     unit = f" {question.unit}" if question.unit else ""
     name, stands = question.parameter, question.kind == "stands"
@@ -196,7 +196,7 @@ def _value_words(question: Question, zero: Zero[Answer], standing: StandingResul
     return says
 
 
-def _stretch_words(question: Question, zero: Zero[Answer], standing: StandingResult | None) -> str:
+def _stretch_words(question: FindQuestion, zero: Zero[Evaluation], standing: StandingResult | None) -> str:
     assert zero.stretch is not None
     first, last = zero.stretch
     unit, name = f" {question.unit}" if question.unit else "", question.parameter
@@ -216,12 +216,12 @@ def _no_limit(standing: StandingResult) -> str:
     return f"some forces carry the dead load, but {standing.reason}; so this is no limit of standing"
 
 
-def _side(answer: Answer) -> str:
+def _side(answer: Evaluation) -> str:
     """A result in words."""
     return answer.status if math.isnan(answer.result) else number(answer.result)
 
 
-def find(deck: Deck, options: Any) -> Finding:
+def find(deck: Deck, options: Any) -> FindResult:
     """Look for the values that the deck or the options ask for.
 
     Raises
@@ -234,9 +234,9 @@ def find(deck: Deck, options: Any) -> Finding:
         As a run does.
     """
     question = question_of(deck, options)
-    answers, contacts = list[Answer](), KnownContacts()
+    answers, contacts = list[Evaluation](), KnownContacts()
 
-    def at(x: float) -> Answer:
+    def at(x: float) -> Evaluation:
         answers.append(answer_at(deck, question, x, contacts))
         return answers[-1]
 
@@ -246,10 +246,10 @@ def find(deck: Deck, options: Any) -> Finding:
     zeros = tuple(find_zeros(samples, at, question.absolute_tolerance))
     asked = zeros if question.kind == "stands" else ()
     standing = tuple(standing_at(deck, question, _standing_side(zero, question)) for zero in asked)
-    return Finding(question, tuple(answers), zeros, tuple(samples), standing)
+    return FindResult(question, tuple(answers), zeros, tuple(samples), standing)
 
 
-def _standing_side(zero: Zero[Answer], question: Question) -> float:
+def _standing_side(zero: Zero[Evaluation], question: FindQuestion) -> float:
     """A value that stands, if some do, as near to the limit as that is asked for."""
     limit, stands = zero.best.x, zero.bracket[1].x
     if zero.stretch is not None:

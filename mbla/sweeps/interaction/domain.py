@@ -29,7 +29,7 @@ from mbla.arrays import FloatArray
 from mbla.solution.thresholds import GAP_TOLERANCE
 from mbla.sweeps.answers import Answer, Answers, answers_of, numbers_of
 from mbla.sweeps.design.directions import horizontal
-from mbla.sweeps.interaction.question import Question
+from mbla.sweeps.interaction.question import InteractionQuestion
 from mbla.sweeps.tables.sweep_table import SweepTable
 
 CROSSED = GAP_TOLERANCE
@@ -67,7 +67,7 @@ class Points:
         return np.asarray(self.known[:, None] * self.ways)
 
 
-def points_of(table: SweepTable, question: Question) -> Points:
+def points_of(table: SweepTable, question: InteractionQuestion) -> Points:
     """The points of the table of a diagram."""
     columns = {column.name: column for column in table.of_role("result")}
 
@@ -119,7 +119,7 @@ class Domain:
         return float(self.inner.exterior.distance(origin)) if around else None
 
 
-def domain_of(points: Points, question: Question) -> Domain | None:
+def domain_of(points: Points, question: InteractionQuestion) -> Domain | None:
     """The domain that points in the plane of two loads prove; None where none of them has bounds."""
     safe = points.static >= 0.0
     if not question.pair or not safe.any():

@@ -45,7 +45,7 @@ SAME_LOAD = 1e-12
 
 
 @dataclass(frozen=True)
-class Question:
+class InteractionQuestion:
     """The points of one diagram.
 
     kind     : ``direction`` or ``two_loads``
@@ -79,7 +79,7 @@ class Question:
         return [axis.split()[-1] for axis in self.axes]
 
 
-def question_of(deck: Deck, options: Any, ratio: Callable[[], float] = lambda: 1.0) -> Question:
+def question_of(deck: Deck, options: Any, ratio: Callable[[], float] = lambda: 1.0) -> InteractionQuestion:
     """What is asked of a deck; building the model here finds whatever is wrong with it before a point is solved.
 
     options : ``case`` or ``loads`` (two names), ``directions``, ``start`` and ``end`` in degrees, None unless given
@@ -112,7 +112,7 @@ def question_of(deck: Deck, options: Any, ratio: Callable[[], float] = lambda: 1
         )
     count, pair = _count(options.directions, ANGLES, 2), tuple(options.loads)
     shares = _two_loads(deck, model, pair)
-    return Question(
+    return InteractionQuestion(
         kind=TWO_LOADS,
         case=_free_name(deck, "interact"),
         axes=(f"factor of {pair[0]}", f"factor of {pair[1]}"),
@@ -204,7 +204,7 @@ def _free_name(deck: Deck, name: str) -> str:
     return name
 
 
-def _direction(deck: Deck, case: str, count: int) -> Question:
+def _direction(deck: Deck, case: str, count: int) -> InteractionQuestion:
     """Azimuths around the circle for one load case; raises UsageError where nothing can be turned."""
     entries = _live_loads(deck, case)
     if deck.content.symmetry:
@@ -237,7 +237,7 @@ def _direction(deck: Deck, case: str, count: int) -> Question:
         pair = _free_name(deck, "interact_0"), _free_name(deck, "interact_90")
     both = zip(pair, (0.0, QUARTER), strict=False)
     begins = "azimuth 0 pushes along +x, 90 along +y" if absolute else "azimuth 0 is as the deck directs its loads"
-    return Question(
+    return InteractionQuestion(
         kind=DIRECTION,
         case=case,
         axes=("factor along x", "factor along y") if absolute else ("factor at azimuth 0", "factor at azimuth 90"),

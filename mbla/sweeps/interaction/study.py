@@ -22,7 +22,7 @@ from mbla.sweeps.command import Finished, Prepared, Report, run_sweep
 from mbla.sweeps.engine.child import PointRunner
 from mbla.sweeps.engine.engine import EngineOptions
 from mbla.sweeps.interaction.domain import Domain, Points, corners_of, domain_of, points_of
-from mbla.sweeps.interaction.question import DIRECTION, TWO_LOADS, Question, question_of
+from mbla.sweeps.interaction.question import DIRECTION, TWO_LOADS, InteractionQuestion, question_of
 from mbla.sweeps.pictures.sheet import count_words, draw_marks, mark_handles
 from mbla.sweeps.plan import Task
 from mbla.sweeps.studies import heading_lines, prepared_study, study_options
@@ -62,7 +62,7 @@ def interact(deck: Deck, run: RunOptions, options: Any, report: Report | None) -
     return run_sweep(prepared_diagram(deck, run, question, chosen.folder), chosen, report)
 
 
-def prepared_diagram(deck: Deck, run: RunOptions, question: Question, folder: Path) -> Prepared:
+def prepared_diagram(deck: Deck, run: RunOptions, question: InteractionQuestion, folder: Path) -> Prepared:
     """The sweep over the angle of a question."""
     results = (*RESULTS, *(f"powers.{name}" for name in question.pair))
     fixed = (*run.overrides, *question.fixed)
@@ -82,7 +82,7 @@ def factor_ratio(deck: Deck, run: RunOptions, pair: Sequence[str]) -> float:
     return second / first if usable else 1.0  # type: ignore[operator]
 
 
-def study_result_of(deck: Deck, question: Question, table: SweepTable) -> StudyResult:
+def study_result_of(deck: Deck, question: InteractionQuestion, table: SweepTable) -> StudyResult:
     """What follows from the points."""
     points = points_of(table, question)
     domain = domain_of(points, question)
@@ -117,7 +117,7 @@ def _exit_code(table: SweepTable, points: Points, domain: Domain | None) -> int:
     return 0 if points.factors.good.any() else NO_FACTOR
 
 
-def _extremes(question: Question, points: Points) -> dict[str, dict[str, Any]]:
+def _extremes(question: InteractionQuestion, points: Points) -> dict[str, dict[str, Any]]:
     """The least and the greatest of the verified load factors, with their angles."""
     if not points.factors.good.any():
         return {}
@@ -130,7 +130,7 @@ def _extremes(question: Question, points: Points) -> dict[str, dict[str, Any]]:
 # --- words ------------------------------------------------------------------------------------------------------------
 
 
-def _point_table(question: Question, points: Points, results: SweepTable) -> list[str]:
+def _point_table(question: InteractionQuestion, points: Points, results: SweepTable) -> list[str]:
     """A line for each point; in capitals where it has no verified answer, which may be that there is no factor."""
     unsure = np.isin(points.factors.answer, (Answer.UNVERIFIED, Answer.FAILED, Answer.NOT_RUN)).tolist()
     rows = zip(results["status"].tolist(), results["state"].tolist(), unsure, strict=True)
@@ -147,7 +147,7 @@ def _point_table(question: Question, points: Points, results: SweepTable) -> lis
     return table(list(columns), list(zip(*columns.values(), strict=True)), left=0)
 
 
-def _factor_words(question: Question, points: Points) -> list[str]:
+def _factor_words(question: InteractionQuestion, points: Points) -> list[str]:
     """The extremes; of two loads each by itself, as the least factor over their shares says nothing."""
     if question.kind == TWO_LOADS:
         alone = [
@@ -168,7 +168,7 @@ def _angles(angles: Sequence[float]) -> str:
     return f"{', '.join(f'{angle:.6g}' for angle in angles[:MOST_ANGLES])}{more} degrees"
 
 
-def _domain_words(question: Question, points: Points, domain: Domain | None) -> list[str]:
+def _domain_words(question: InteractionQuestion, points: Points, domain: Domain | None) -> list[str]:
     """What follows from the bounds of all points for the domain of associative flow."""
     if not question.pair:
         return ["no safe domain is drawn: with vertical parts the loads do not lie in one plane through the dead load"]
@@ -188,7 +188,7 @@ def _domain_words(question: Question, points: Points, domain: Domain | None) -> 
     return words
 
 
-def _gap_words(question: Question, points: Points, domain: Domain) -> str:
+def _gap_words(question: InteractionQuestion, points: Points, domain: Domain) -> str:
     """What safe points and mechanisms leave open between them, or why that is no share of an area."""
     if not np.isnan(domain.gap):
         return f"what those leave open between safe points and mechanisms is {percent(domain.gap)} % of its area"
@@ -200,7 +200,7 @@ def _gap_words(question: Question, points: Points, domain: Domain) -> str:
     return "it has no area of which a share could be left open"
 
 
-def _reasons(question: Question, results: SweepTable) -> list[str]:
+def _reasons(question: InteractionQuestion, results: SweepTable) -> list[str]:
     """Why points have no load factor, those of one reason together."""
     found: dict[str, list[float]] = {}
     for angle, reason in zip(question.angles, results["reason"].tolist(), strict=True):
@@ -212,7 +212,9 @@ def _reasons(question: Question, results: SweepTable) -> list[str]:
 # --- record -----------------------------------------------------------------------------------------------------------
 
 
-def _record(question: Question, points: Points, domain: Domain | None, words: Sequence[str]) -> dict[str, Any]:
+def _record(
+    question: InteractionQuestion, points: Points, domain: Domain | None, words: Sequence[str]
+) -> dict[str, Any]:
     ends = _extremes(question, points)
     proved = None if domain is None else {
         "inner": corners_of(domain.inner) + 0.0,
@@ -267,7 +269,7 @@ ROOM = 1.12
 
 
 def draw_diagram(
-    title: Sequence[str], rule: str, question: Question, points: Points, domain: Domain | None, path: Path
+    title: Sequence[str], rule: str, question: InteractionQuestion, points: Points, domain: Domain | None, path: Path
 ) -> None:
     """Load factors in the plane of the two factors, joined where neighbours have one, and the proved polygons.
 

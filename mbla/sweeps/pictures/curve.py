@@ -16,17 +16,17 @@ from mbla.sweeps.pictures.sheet import (
     open_sheet,
     scale_axis,
 )
-from mbla.sweeps.pictures.view import View, gridded, several
+from mbla.sweeps.pictures.view import ResultView, gridded, several
 
 
-def refusal(view: View) -> str:
+def refusal(view: ResultView) -> str:
     """Why there can be no curves, or nothing."""
     if view.text_refused:
         return view.text_refused
     return "" if view.axes else "no parameter has two values of a grid; distribution shows samples"
 
 
-def draw(path: Path, view: View, options: PictureOptions) -> None:
+def draw(path: Path, view: ResultView, options: PictureOptions) -> None:
     """Write the picture; a line is broken where a point has no value; raises as ``open_page`` does."""
     grid = gridded(view.answers, *view.axes)
     x, cells = grid.x, grid.cells

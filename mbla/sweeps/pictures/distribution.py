@@ -21,7 +21,7 @@ from mbla.results.pictures.options import PictureOptions
 from mbla.results.pictures.page import VERMILION, Page
 from mbla.sweeps.answers import Answers
 from mbla.sweeps.pictures.sheet import open_sheet
-from mbla.sweeps.pictures.view import View, axis_of, column_by_name, grid_axes, is_sampled
+from mbla.sweeps.pictures.view import ResultView, axis_of, column_by_name, grid_axes, is_sampled
 
 CONFIDENCE = 0.95
 MOST_CURVES = 12
@@ -49,7 +49,7 @@ class Cumulative:
     points: int
 
 
-def refusal(view: View) -> str:
+def refusal(view: ResultView) -> str:
     """Why there can be no distribution, or nothing."""
     if view.text_refused:
         return view.text_refused
@@ -71,7 +71,7 @@ def cumulative(answers: Answers, own: BoolArray, band: bool = True) -> Cumulativ
     return Cumulative(values, share, low, high, below, above, unknown, points)
 
 
-def draw(path: Path, view: View, options: PictureOptions) -> None:
+def draw(path: Path, view: ResultView, options: PictureOptions) -> None:
     """Write the picture; raises as ``open_page`` does."""
     groups, sampled, answers = _groups(view), bool(view.table.samples), view.answers
     curves = [cumulative(answers, own, sampled) for _, own in groups]
@@ -101,7 +101,7 @@ def draw(path: Path, view: View, options: PictureOptions) -> None:
                 axes.axvline(demand, color=VERMILION, linestyle="--", linewidth=1.4 * page.scale, zorder=2)
 
 
-def _groups(view: View) -> list[tuple[str, BoolArray]]:
+def _groups(view: ResultView) -> list[tuple[str, BoolArray]]:
     """Points of each value of the chosen parameter, or of each combination of those that are not sampled."""
     table = view.table
     axes = grid_axes(table) if view.sampled else ()
@@ -134,7 +134,7 @@ def _draw_curve(axes: Any, curve: Cumulative, style: dict[str, Any]) -> None:
     axes.fill_between(curve.values, curve.low, curve.high, **band)
 
 
-def _notes(view: View, curves: Sequence[Cumulative]) -> list[str]:
+def _notes(view: ResultView, curves: Sequence[Cumulative]) -> list[str]:
     notes = ["points of no random sample: shares of the points, no probabilities"]
     if view.table.samples:
         kind = view.table.sampling.replace("_", " ")

@@ -11,12 +11,12 @@ from mbla.results.pictures.diagrams import SCALE, dress
 from mbla.results.pictures.options import PictureOptions
 from mbla.results.pictures.page import GROUPS, INK, Page
 from mbla.sweeps.pictures.sheet import draw_marks, drawn_values, mark_handles, open_sheet, scale_axis
-from mbla.sweeps.pictures.view import View, gridded
+from mbla.sweeps.pictures.view import ResultView, gridded
 
 MOST_CLASSES = len(GROUPS)
 
 
-def refusal(view: View) -> str:
+def refusal(view: ResultView) -> str:
     """Why there can be no map, or nothing."""
     if len(view.axes) < 2:
         return "needs two parameters of a grid with two values each"
@@ -25,7 +25,7 @@ def refusal(view: View) -> str:
     return ""
 
 
-def draw(path: Path, view: View, options: PictureOptions) -> None:
+def draw(path: Path, view: ResultView, options: PictureOptions) -> None:
     """Write the picture; raises as ``open_page`` does."""
     grid = gridded(view.answers, *view.axes)
     x, y, cells, classes = grid.x, grid.lines, grid.cells, view.answers.categories

@@ -14,7 +14,7 @@ from mbla.errors import FileError, UsageError
 from mbla.results.pictures.options import PictureOptions, format_of, is_single, page_options, parse_kinds
 from mbla.results.pictures.page import PictureFile, write_pictures
 from mbla.sweeps.pictures import curve, distribution, map
-from mbla.sweeps.pictures.view import View, chosen_results, view_of
+from mbla.sweeps.pictures.view import ResultView, chosen_results, view_of
 from mbla.sweeps.tables.sweep_json import JSON, read_sweep_table
 from mbla.sweeps.tables.sweep_table import SweepTable
 
@@ -22,16 +22,16 @@ from mbla.sweeps.tables.sweep_table import SweepTable
 class Kind(Protocol):
     """A kind of picture, a module each."""
 
-    def refusal(self, view: View) -> str:
+    def refusal(self, view: ResultView) -> str:
         """Why a table does not fit it, in words; empty where it does."""
 
-    def draw(self, path: Path, view: View, options: PictureOptions) -> None:
+    def draw(self, path: Path, view: ResultView, options: PictureOptions) -> None:
         """Write it; raises as ``open_diagrams`` does."""
 
 
 KINDS: dict[str, Kind] = {"curve": curve, "map": map, "distribution": distribution}
 """by name, in the order in which they are made"""
-USUAL: dict[str, Callable[[View], bool]] = {
+USUAL: dict[str, Callable[[ResultView], bool]] = {
     "map": lambda view: min(len(axis.levels) for axis in view.axes[:2]) > 2,  # else it shows no more than curves
     "distribution": lambda view: view.sampled or not view.axes,
 }
@@ -138,12 +138,12 @@ def pictures_of(table: SweepTable, chosen: SweepPictures) -> list[PictureFile]:
     return [PictureFile(_name(kind, view), partial(draw[kind], view=view)) for kind, view in found]
 
 
-def _name(kind: str, view: View) -> str:
+def _name(kind: str, view: ResultView) -> str:
     """``curve_load_factor``: what is no letter, number, full stop or hyphen becomes a low line."""
     return f"{kind}_{re.sub(r'[^A-Za-z0-9.-]+', '_', view.answers.column.name)}"
 
 
-def _fits(kind: str, view: View, every: bool) -> bool:
+def _fits(kind: str, view: ResultView, every: bool) -> bool:
     reason = KINDS[kind].refusal(view)
     if reason and not every:
         raise UsageError("nothing-to-draw", f"--kind {kind} of {view.answers.column.name}: {reason}")

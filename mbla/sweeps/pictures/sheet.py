@@ -15,12 +15,12 @@ from mbla.results.pictures.diagrams import Diagrams, hollow, open_diagrams, tint
 from mbla.results.pictures.options import PictureOptions
 from mbla.results.pictures.page import GHOST, INK, PURPLE, WARNING, Page
 from mbla.sweeps.answers import Answer, Answers
-from mbla.sweeps.pictures.view import Axis, Cells, Grid, View
+from mbla.sweeps.pictures.view import Cells, Grid, ParameterAxis, ResultView
 from mbla.sweeps.results import STATUS
 
 
 @dataclass(frozen=True)
-class Mark:
+class AnswerMark:
     """How an answer that is no value is shown: words of legends and counts, marker, colour."""
 
     words: str
@@ -29,14 +29,14 @@ class Mark:
 
 
 MARKS = {
-    Answer.UNVERIFIED: Mark("not verified", "o", WARNING),
-    Answer.NO_EQUILIBRIUM: Mark("no equilibrium (does not stand)", "v", INK),
-    Answer.UNBOUNDED: Mark("unbounded (no collapse)", "^", PURPLE),
-    Answer.NONE: Mark("has no such value", "|", GHOST),
-    Answer.FAILED: Mark("failed", "x", WARNING),
-    Answer.NOT_RUN: Mark("not solved yet", ".", GHOST),
-    Answer.MIXED: Mark("different from point to point", "d", GHOST),
-    Answer.PARTLY: Mark("some points without a verified value", "o", WARNING),
+    Answer.UNVERIFIED: AnswerMark("not verified", "o", WARNING),
+    Answer.NO_EQUILIBRIUM: AnswerMark("no equilibrium (does not stand)", "v", INK),
+    Answer.UNBOUNDED: AnswerMark("unbounded (no collapse)", "^", PURPLE),
+    Answer.NONE: AnswerMark("has no such value", "|", GHOST),
+    Answer.FAILED: AnswerMark("failed", "x", WARNING),
+    Answer.NOT_RUN: AnswerMark("not solved yet", ".", GHOST),
+    Answer.MIXED: AnswerMark("different from point to point", "d", GHOST),
+    Answer.PARTLY: AnswerMark("some points without a verified value", "o", WARNING),
 }
 LETTERS = 60
 """of all names along an axis from which on they stand upright"""
@@ -59,7 +59,7 @@ def count_words(answers: Answers) -> str:
 @contextmanager
 def open_sheet(
     path: Path,
-    view: View,
+    view: ResultView,
     what: str,
     options: PictureOptions,
     handles: Callable[[Page], Sequence[Any]] | None = None,
@@ -76,7 +76,7 @@ def drawn_values(cells: Cells) -> FloatArray:
     return np.where(np.isin(cells.answer, (Answer.VALUE, Answer.PARTLY)), cells.value, np.nan)
 
 
-def scale_axis(page: Page, axes: Any, axis: Axis, which: str = "x") -> None:
+def scale_axis(page: Page, axes: Any, axis: ParameterAxis, which: str = "x") -> None:
     """Scale and ticks of an axis of the design along ``x`` or ``y``: names of categories, 45 degrees of directions."""
     along = getattr(axes, f"{which}axis")
     if axis.categorical:

@@ -21,7 +21,7 @@ DIRECTIONS = ("azimuth", "elevation")
 
 
 @dataclass(frozen=True)
-class Axis:
+class ParameterAxis:
     """A parameter with its values.
 
     levels  : numbers ascending; texts in the order of the design
@@ -82,7 +82,7 @@ def over_sphere(table: SweepTable, dimension: str) -> bool:
     return any(column.dimension == dimension for column in table.of_role("elevation"))
 
 
-def axis_of(table: SweepTable, column: SweepColumn) -> Axis:
+def axis_of(table: SweepTable, column: SweepColumn) -> ParameterAxis:
     """The axis of a column of the design."""
     partners = tuple(
         other.name
@@ -92,13 +92,13 @@ def axis_of(table: SweepTable, column: SweepColumn) -> Axis:
     if column.kind in ("text", "bool"):
         found: dict[Any, int] = {}
         numbers = [found.setdefault(value, len(found)) for value in table[column.name].tolist()]
-        return Axis(column, tuple(found), np.array(numbers, dtype=np.int64), partners=partners)
+        return ParameterAxis(column, tuple(found), np.array(numbers, dtype=np.int64), partners=partners)
     levels, place = np.unique(numbers_of(column, table[column.name]), return_inverse=True)
     wide = bool(0 < WIDE * levels[0] <= levels[-1])
-    return Axis(column, tuple(levels.tolist()), place.reshape(-1).astype(np.int64), wide, partners)
+    return ParameterAxis(column, tuple(levels.tolist()), place.reshape(-1).astype(np.int64), wide, partners)
 
 
-def grid_axes(table: SweepTable) -> tuple[Axis, ...]:
+def grid_axes(table: SweepTable) -> tuple[ParameterAxis, ...]:
     """One axis for each dimension of two values and more that is no sample and no sphere; most values first.
 
     Of parameters that change together the first number is taken.
@@ -116,7 +116,7 @@ def grid_axes(table: SweepTable) -> tuple[Axis, ...]:
 
 
 @dataclass(frozen=True)
-class View:
+class ResultView:
     """One result of a sweep.
 
     by      : parameter that the user put first; empty where the kind of picture is to choose
@@ -129,7 +129,7 @@ class View:
     demands: tuple[float, ...] = ()
 
     @cached_property
-    def axes(self) -> tuple[Axis, ...]:
+    def axes(self) -> tuple[ParameterAxis, ...]:
         """Axes of the grid, the chosen parameter first, then those of most values, categories last."""
         if not self.by:
             return grid_axes(self.table)
@@ -152,11 +152,11 @@ class View:
         return f"the result is text{'; map shows it' * (len(self.axes) > 1)}"
 
 
-def view_of(table: SweepTable, result: SweepColumn, by: str = "", demands: tuple[float, ...] = ()) -> View:
+def view_of(table: SweepTable, result: SweepColumn, by: str = "", demands: tuple[float, ...] = ()) -> ResultView:
     """The view on one result; UsageError where ``by`` is no parameter."""
     if by:
         column_by_name(table, by)
-    return View(table, answers_of(table, result), by, demands)
+    return ResultView(table, answers_of(table, result), by, demands)
 
 
 def column_by_name(table: SweepTable, name: str) -> SweepColumn:
@@ -198,7 +198,7 @@ CELL = np.dtype([("answer", np.int64), ("value", float), ("low", float), ("high"
 NO_POINT = -1
 
 
-def pooled(answers: Answers, axes: Sequence[Axis]) -> Cells:
+def pooled(answers: Answers, axes: Sequence[ParameterAxis]) -> Cells:
     """The points of a result by their values of some parameters.
 
     The median is one in rank: what does not stand lies below all values, what nothing brings down above all. It is that
@@ -250,9 +250,9 @@ class Grid:
     cells : (n_panels, n_lines, n_x), 1 for parameters that are None
     """
 
-    x: Axis
-    lines: Axis | None
-    panels: Axis | None
+    x: ParameterAxis
+    lines: ParameterAxis | None
+    panels: ParameterAxis | None
     cells: Cells
 
     def title(self, number: int) -> str:
@@ -272,7 +272,7 @@ MOST_PANELS = 16
 """diagrams on a page in which anything can be read"""
 
 
-def gridded(answers: Answers, x: Axis, *rest: Axis) -> Grid:
+def gridded(answers: Answers, x: ParameterAxis, *rest: ParameterAxis) -> Grid:
     """The points by one parameter and those after it; further parameters are taken together."""
     lines = rest[0] if rest else None
     panels = rest[1] if len(rest) > 1 and len(rest[1].levels) <= MOST_PANELS else None

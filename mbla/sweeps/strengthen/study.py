@@ -125,7 +125,7 @@ def strengthen(deck: Deck, options: RunOptions, log: Log) -> Strengthened:
 
 
 @dataclass(frozen=True)
-class _Try:
+class _Attempt:
     """An analysis of the structure with capacities, (k,), found for load factors asked; factors by load case."""
 
     asked: dict[str, float]
@@ -155,14 +155,14 @@ def _analysed(
 ) -> Strengthened:
     """The strengthened structure, as much more asked of the program as it takes for it to carry what it has to."""
     assert deck.content.strengthen is not None  # who calls knows
-    required, catalogue, tries = required_of(deck), deck.content.strengthen.catalogue, list[_Try]()
+    required, catalogue, tries = required_of(deck), deck.content.strengthen.catalogue, list[_Attempt]()
     asked, raised, wanted, short = required, 1.0, with_fewer(question, first, catalogue), ""
     for _ in range(MOST_REPEATS + 1):
         capacities = rounded_up(raised * wanted, catalogue, question.most)
         if not tries or not np.array_equal(capacities, tries[-1].capacities):
             results = _analysis(deck, movable, model, candidates.ties, capacities)
             factors = {name: _factor(results, name) for name in required}
-            tries.append(_Try(asked, capacities, float(capacities @ candidates.costs), results, factors))
+            tries.append(_Attempt(asked, capacities, float(capacities @ candidates.costs), results, factors))
         more = _ask_for(required, tries)
         if len(tries) == 1 and more is not None and not tries[0].carries(required):
             results = _analysis(deck, movable, model, candidates.ties, greatest_capacities(question))
@@ -198,7 +198,7 @@ def _analysed(
     return replace(answer, files=_files(answer, movable, best.results, options))
 
 
-def _ask_for(required: dict[str, float], tries: Sequence[_Try]) -> dict[str, float] | None:
+def _ask_for(required: dict[str, float], tries: Sequence[_Attempt]) -> dict[str, float] | None:
     """Load factors to ask of the program next, by load case; None where that is of no use, or enough was found."""
     last, enough = tries[-1], [each for each in tries if each.carries(required)]
     if any(map(math.isnan, last.factors.values())):
@@ -212,7 +212,7 @@ def _ask_for(required: dict[str, float], tries: Sequence[_Try]) -> dict[str, flo
     return {name: (before[-1].asked[name] + best.asked[name]) / 2.0 for name in required}
 
 
-def _beyond(name: str, required: float, tries: Sequence[_Try]) -> float:
+def _beyond(name: str, required: float, tries: Sequence[_Attempt]) -> float:
     """Load factor to ask of the program for a load case that fell short, from what was asked before and found."""
     asked, found = tries[-1].asked[name], tries[-1].factors[name]
     if _carried(required, found):

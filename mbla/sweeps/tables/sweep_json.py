@@ -24,7 +24,7 @@ from mbla.results.record.json_record import notice_json
 from mbla.results.record.json_values import number
 from mbla.results.record.keys import Key
 from mbla.results.record.scene import Values
-from mbla.sweeps.design.design import Dimension
+from mbla.sweeps.design.design import DesignDimension
 from mbla.sweeps.fragility import fragility_keys
 from mbla.sweeps.plan import DONE, FAILED, Plain
 from mbla.sweeps.results import OWN_COLUMNS
@@ -77,14 +77,14 @@ def counts(table: SweepTable) -> dict[str, int]:
     return {"all": len(table), "done": done, "failed": failed, "unfinished": len(table) - done - failed}
 
 
-def _places(dimensions: Sequence[Dimension], position: IntArray) -> list[int] | None:
+def _places(dimensions: Sequence[DesignDimension], position: IntArray) -> list[int] | None:
     """Place of each point in the full design, the last dimension fastest, from 0; None where all are there."""
     shape = tuple(dimension.size for dimension in dimensions)
     places = np.ravel_multi_index(tuple(position.T), shape) if shape else np.zeros(len(position), dtype=np.int64)
     return None if np.array_equal(places, np.arange(np.prod(shape))) else [int(place) for place in places]
 
 
-def positions_at(places: Sequence[int] | None, dimensions: Sequence[Dimension]) -> IntArray:
+def positions_at(places: Sequence[int] | None, dimensions: Sequence[DesignDimension]) -> IntArray:
     """Positions along each dimension, (n_points, n_dimensions), from the places; the way back.
 
     Raises ValueError where a place lies outside the design.
@@ -127,7 +127,7 @@ def read_sweep_table(path: Path) -> SweepTable:
 def _table(record: dict[str, Any], rows: Sequence[Sequence[str]]) -> SweepTable:
     columns = tuple(SweepColumn(**column) for column in record["columns"])
     design = record["design"]
-    dimensions = tuple(Dimension(**dimension) for dimension in design["dimensions"])
+    dimensions = tuple(DesignDimension(**dimension) for dimension in design["dimensions"])
     if not rows or list(rows[0]) != [column.header for column in columns]:
         raise ValueError("its columns differ")
     places = design["places"]

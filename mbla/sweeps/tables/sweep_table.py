@@ -10,9 +10,9 @@ import numpy as np
 
 from mbla.arrays import IntArray
 from mbla.results.record.scene import Values
-from mbla.sweeps.design.design import Design, Dimension
+from mbla.sweeps.design.design import Design, DesignDimension
 from mbla.sweeps.design.design import SweepColumn as SweepColumn
-from mbla.sweeps.plan import Outcome, Plain
+from mbla.sweeps.plan import Plain, PointOutcome
 from mbla.sweeps.tables.display import sweep_html, sweep_lines
 
 
@@ -32,7 +32,7 @@ class SweepTable:
     title: str
     columns: tuple[SweepColumn, ...]
     values: tuple[Values, ...]
-    dimensions: tuple[Dimension, ...]
+    dimensions: tuple[DesignDimension, ...]
     position: IntArray
     levels: Mapping[str, Values] = field(default_factory=dict)
     samples: str = ""
@@ -83,7 +83,7 @@ def sweep_table(
     title: str,
     design: Design,
     columns: Sequence[SweepColumn],
-    outcomes: Mapping[str, Outcome],
+    outcomes: Mapping[str, PointOutcome],
     keys: Sequence[str],
 ) -> SweepTable:
     """The table: number of the point, what the design sets, state, results, and how it ended.
@@ -160,5 +160,5 @@ def as_text(value: Plain) -> str:
     return "null" if value is None else str(value)
 
 
-def _own(name: str, kind: str, found: Sequence[Outcome | None]) -> Values:
+def _own(name: str, kind: str, found: Sequence[PointOutcome | None]) -> Values:
     return column_values(kind, [None if outcome is None else getattr(outcome, name) for outcome in found])

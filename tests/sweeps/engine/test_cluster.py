@@ -12,7 +12,7 @@ import pytest
 from mbla.errors import FileError, UsageError
 from mbla.sweeps.engine.engine import EngineOptions, outcomes_of
 from mbla.sweeps.engine.supervised import PACKAGES
-from mbla.sweeps.plan import DONE, Outcome, Task
+from mbla.sweeps.plan import DONE, PointOutcome, Task
 from tests.sweeps.engine.real_cluster import kill, real_cluster
 from tests.sweeps.engine.test_supervised import children
 from tests.sweeps.small_plan import ROW, frictions, plan_over
@@ -20,7 +20,7 @@ from tests.sweeps.small_plan import ROW, frictions, plan_over
 pytestmark = pytest.mark.long
 
 
-def check_answers(outcomes: Iterable[Outcome], tasks: Iterable[Task]) -> None:
+def check_answers(outcomes: Iterable[PointOutcome], tasks: Iterable[Task]) -> None:
     """Each point once, with the load factor that is its friction."""
     listed = list(outcomes)
     found = {outcome.key: outcome for outcome in listed}

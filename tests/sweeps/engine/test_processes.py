@@ -13,7 +13,7 @@ from mbla.sweeps.engine import processes
 from mbla.sweeps.engine.processes import NOT_BEGUN, Processes, run_on_worker
 from mbla.sweeps.engine.supervised import StoppedError
 from mbla.sweeps.identity import library_versions
-from mbla.sweeps.plan import DONE, FAILED, Outcome, Plan, Task
+from mbla.sweeps.plan import DONE, FAILED, Plan, PointOutcome, Task
 from tests.sweeps.small_plan import frictions, plan_over
 
 
@@ -30,9 +30,9 @@ class Runner:
         """As from another thread."""
         self.stopped = True
 
-    def run(self, task: Task) -> Outcome:
+    def run(self, task: Task) -> PointOutcome:
         """Solved at once."""
-        return Outcome(task.key, DONE, 0, "", {}, 1, 0.0)
+        return PointOutcome(task.key, DONE, 0, "", {}, 1, 0.0)
 
 
 @pytest.fixture

@@ -14,7 +14,7 @@ import pytest
 
 from mbla.errors import UsageError
 from mbla.sweeps.engine.supervised import StoppedError, SupervisedRunner
-from mbla.sweeps.plan import DONE, FAILED, Outcome, Plan, Task
+from mbla.sweeps.plan import DONE, FAILED, Plan, PointOutcome, Task
 from tests.sweeps.killed_sweeps import runs
 from tests.sweeps.small_plan import ROW, frictions, plan_over
 
@@ -25,11 +25,11 @@ SAYS = (
     "import sys, os, time\n"
     "from dataclasses import replace\n"
     "from multiprocessing.connection import Connection\n"
-    "from mbla.sweeps.plan import DONE, FAILED, Outcome\n"
+    "from mbla.sweeps.plan import DONE, FAILED, PointOutcome\n"
     "pipe = Connection(int(sys.argv[1])); pipe.recv(); pipe.send('')\n"
     "for number in range(1, 99):\n"
     "    task = pipe.recv()\n"
-    "    outcome = Outcome('key', DONE, 0, '', {'load_factor': 0.5}, 1, 0.1)\n"
+    "    outcome = PointOutcome('key', DONE, 0, '', {'load_factor': 0.5}, 1, 0.1)\n"
 )
 """the start of a process that speaks as the real one does"""
 
@@ -112,7 +112,7 @@ def test_memory_that_earlier_points_left_is_not_held_against_a_point(tmp_path: P
 
 def test_killed_in_the_middle_of_a_point_it_is_solved_again(tmp_path: Path) -> None:
     before = set(children())
-    found: list[Outcome] = []
+    found: list[PointOutcome] = []
     with SupervisedRunner(plan_over(tmp_path, ROW)) as runner:
         runner.run(Task("small", 1, {}))
         (child,) = set(children()) - before

@@ -14,7 +14,7 @@ import pytest
 from mbla import cli
 from mbla.deck import read_deck_text
 from mbla.errors import DeckError, UsageError
-from mbla.sweeps.find.study import Finding, find
+from mbla.sweeps.find.study import FindResult, find
 from tests.decks.folder import PATHS, deck_of, name_of
 from tests.line import BLOCK, WALL
 
@@ -41,11 +41,11 @@ JAMMED = JAMMED.replace("blocks: [left, right]", "ground: {z: 0}, joint: ground"
 """Between two blocks: these are fixed, or stand on the ground with friction of their own"""
 
 
-def said(found: Finding) -> str:
+def said(found: FindResult) -> str:
     return " ".join(" ".join(found.lines).split())
 
 
-def asked(text: str, parameter: str, kind: str, target: float, bounds: tuple[float, float], **more: Any) -> Finding:
+def asked(text: str, parameter: str, kind: str, target: float, bounds: tuple[float, float], **more: Any) -> FindResult:
     question = ASKED | {"parameter": parameter, "target": (kind, target), "bounds": bounds} | more
     return find(read_deck_text(text, Path("deck.yaml")), SimpleNamespace(**question))
 

@@ -17,9 +17,9 @@ from mbla.sweeps.command import Prepared
 from mbla.sweeps.design.directions import horizontal
 from mbla.sweeps.engine.child import PointRunner
 from mbla.sweeps.interaction.domain import Domain, Points, domain_of, points_of
-from mbla.sweeps.interaction.question import DIRECTION, Question, question_of
+from mbla.sweeps.interaction.question import DIRECTION, InteractionQuestion, question_of
 from mbla.sweeps.interaction.study import prepared_diagram, study_result_of
-from mbla.sweeps.plan import Outcome
+from mbla.sweeps.plan import PointOutcome
 from mbla.sweeps.tables.sweep_table import SweepTable, sweep_table
 from mbla.sweeps.tables.write_tables import StudyResult
 from tests.line import HEAD
@@ -54,7 +54,7 @@ class Diagram:
     """A diagram and what follows from it."""
 
     deck: Deck
-    question: Question
+    question: InteractionQuestion
     table: SweepTable
 
     @property
@@ -87,7 +87,7 @@ def written(folder: Path) -> Path:
     return path
 
 
-def question(folder: Path, overrides: Sequence[str] = (), **asked: Any) -> Question:
+def question(folder: Path, overrides: Sequence[str] = (), **asked: Any) -> InteractionQuestion:
     """What is asked of the block."""
     return question_of(read_deck(written(folder), overrides), options(**asked))
 
@@ -107,7 +107,7 @@ def solved(folder: Path, overrides: Sequence[str] = (), **asked: Any) -> Diagram
     return Diagram(deck, wanted, _table(prepared, outcomes))
 
 
-def _table(prepared: Prepared, outcomes: Mapping[str, Outcome]) -> SweepTable:
+def _table(prepared: Prepared, outcomes: Mapping[str, PointOutcome]) -> SweepTable:
     return sweep_table(prepared.title, prepared.design, prepared.columns, outcomes, prepared.keys)
 
 
@@ -141,7 +141,7 @@ def made(
         results = {**dict.fromkeys(FIGURES, factor), **powers, "status": "solved", "verified": True}
         results |= {"standing.verdict": "yes", "mechanism.class": "sliding"} | dict((changes or {}).get(number, {}))
         state, code, reason = results.pop("state", "done"), results.pop("exit_code", 0), results.pop("reason", "")
-        outcomes[key] = Outcome(key, str(state), int(code), str(reason), results, 1, 0.1)
+        outcomes[key] = PointOutcome(key, str(state), int(code), str(reason), results, 1, 0.1)
     return Diagram(deck, wanted, _table(prepared, outcomes))
 
 

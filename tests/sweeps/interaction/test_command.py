@@ -15,7 +15,7 @@ from mbla.cli import main
 from mbla.process.signals import Terminated
 from mbla.sweeps import command
 from mbla.sweeps.engine.engine import EngineOptions, outcomes_of
-from mbla.sweeps.plan import Outcome, Plan, Task
+from mbla.sweeps.plan import Plan, PointOutcome, Task
 from tests.sweeps.interaction.hand_made import written
 
 
@@ -70,7 +70,7 @@ def test_an_interrupted_study_is_gone_on_with_by_the_same_command(
     arguments = ["interact", str(written(tmp_path)), "--case", "push", "--directions", "4"]
     begun: list[int] = []
 
-    def interrupted(options: EngineOptions, plan: Plan, tasks: Sequence[Task]) -> Generator[Outcome, None, None]:
+    def interrupted(options: EngineOptions, plan: Plan, tasks: Sequence[Task]) -> Generator[PointOutcome, None, None]:
         begun.append(len(tasks))
         for number, outcome in enumerate(outcomes_of(options, plan, tasks)):
             if number == 1 and len(begun) == 1:

@@ -6,7 +6,7 @@ from dataclasses import replace
 from random import Random
 
 from mbla.sweeps.journal import JournalHeader
-from mbla.sweeps.plan import DONE, FAILED, Outcome, Plain, Task
+from mbla.sweeps.plan import DONE, FAILED, Plain, PointOutcome, Task
 
 HEADER = JournalHeader(
     {"base deck": "f00d", "load cases": "push", "mbla": "0.1.0+abc", "numpy": "2.3.0"},
@@ -23,7 +23,7 @@ LENGTHS = (0, 3, 3, 40, 40, 400, 4000)
 """of the texts of a point"""
 
 
-def point(number: int) -> tuple[Task, Outcome]:
+def point(number: int) -> tuple[Task, PointOutcome]:
     """Point of this number, always the same one."""
     draw = Random(number)
     key = f"{draw.getrandbits(128):032x}"
@@ -37,12 +37,12 @@ def point(number: int) -> tuple[Task, Outcome]:
     failed = draw.random() < 0.2
     results = {} if failed else {name: draw.choice(values[kind]) for name, kind in HEADER.columns.items()}
     task = Task(key, number, {"parameters.mu": draw.random(), "title": text})
-    return task, Outcome(
+    return task, PointOutcome(
         key, FAILED if failed else DONE, 4 if failed else 0, text if failed else "", results, 1, draw.random()
     )
 
 
-def as_read(outcome: Outcome) -> Outcome:
+def as_read(outcome: PointOutcome) -> PointOutcome:
     """The outcome as a journal gives it back: with every column, texts in one line."""
 
     def plain(value: Plain) -> Plain:

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from mbla.sweeps.design.design import Dimension
+from mbla.sweeps.design.design import DesignDimension
 from mbla.sweeps.tables.sweep_table import SweepColumn, SweepTable
 
 UNITS = {"thickness": "m", "azimuth": "degree"}
@@ -81,7 +81,7 @@ def table_of(
         parts.append((_column(name, kind, "result", case="push", path=name), _values(kind, values)))
     return SweepTable(
         title, tuple(column for column, _ in parts), tuple(values for _, values in parts),
-        tuple(Dimension(*each) for each in dimensions), np.array(position).reshape(len(rows), len(dimensions)),
+        tuple(DesignDimension(*each) for each in dimensions), np.array(position).reshape(len(rows), len(dimensions)),
         samples=samples, sampling=sampling,
     )  # fmt: skip
 

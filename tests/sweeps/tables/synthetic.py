@@ -3,8 +3,8 @@
 from typing import Any
 
 from mbla.deck.units import Units
-from mbla.sweeps.design.design import Design, Dimension, Point, SweepColumn
-from mbla.sweeps.plan import DONE, FAILED, Outcome, Plain
+from mbla.sweeps.design.design import Design, DesignDimension, DesignPoint, SweepColumn
+from mbla.sweeps.plan import DONE, FAILED, Plain, PointOutcome
 from mbla.sweeps.results import result_columns
 from mbla.sweeps.tables.sweep_json import sweep_json
 from mbla.sweeps.tables.sweep_table import SweepTable, sweep_table
@@ -24,18 +24,18 @@ def design() -> Design:
     )
     places = [(i, j) for i in range(2) for j in range(3) if (i, j) != LEFT_OUT]
     points = tuple(
-        Point(number, (i, j), (FRICTION[i], THICKNESS[j], j + 4), {"parameters.mu": FRICTION[i]})
+        DesignPoint(number, (i, j), (FRICTION[i], THICKNESS[j], j + 4), {"parameters.mu": FRICTION[i]})
         for number, (i, j) in enumerate(places, 1)
     )
     levels: tuple[tuple[Plain, ...], ...] = (FRICTION, THICKNESS, (4, 5, 6))
-    return Design(columns, (Dimension("mu", 2), Dimension("sobol", 3)), points, levels, 1, "sobol", "sobol")
+    return Design(columns, (DesignDimension("mu", 2), DesignDimension("sobol", 3)), points, levels, 1, "sobol", "sobol")
 
 
 def keys() -> list[str]:
     return [f"key{point.number}" for point in design().points]
 
 
-def outcomes() -> dict[str, Outcome]:
+def outcomes() -> dict[str, PointOutcome]:
     """Solved, without equilibrium, solved, failed; the fifth has what the fourth has not."""
     solved: dict[str, Plain] = {
         "status": "solved",
@@ -54,7 +54,7 @@ def outcomes() -> dict[str, Outcome]:
         (DONE, 0, "", solved),
     ]
     return {
-        key: Outcome(key, state, code, reason, results, 1, 0.25)
+        key: PointOutcome(key, state, code, reason, results, 1, 0.25)
         for key, (state, code, reason, results) in zip(keys(), found, strict=True)
     }
 
