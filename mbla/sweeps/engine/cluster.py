@@ -43,7 +43,7 @@ def pool_of_cluster(options: EngineOptions, plan: Plan) -> Iterator[Pool]:
         except MblaError:
             raise
         except (Exception, concurrent.futures.CancelledError) as error:
-            if client.status != "running" or isinstance(error, concurrent.futures.CancelledError):
+            if client.status != "running" or isinstance(error, (OSError, concurrent.futures.CancelledError)):
                 raise lost(options) from error
             words = f"a worker cannot solve points of this sweep: {' '.join(str(error).split())}"
             raise UsageError("worker-refused", words) from error
