@@ -16,7 +16,6 @@ from mbla.model.guides import NO_GUIDES, Guides, joined, together
 from mbla.model.solids.blocks import Blocks
 from mbla.model.solids.facets import NO_BENT_FACES, BentFaces
 from mbla.model.ties.ties import NO_TIES, Ties
-from mbla.process.imports import import_scipy
 from mbla.questions import Question
 from mbla.questions.angle import Angle
 from mbla.questions.force import Force, Objective
@@ -24,8 +23,6 @@ from mbla.questions.load_factor import LoadFactor
 from mbla.questions.reaction import Reaction, Settlement
 from mbla.questions.tilt import Tilt
 from mbla.questions.travel import Travel, TravelPosition
-
-import_scipy()  # before the stages that compute
 
 
 @dataclass(frozen=True)
