@@ -38,7 +38,7 @@ GIVES = 1e-6
 
 @dataclass(frozen=True)
 class _Sum:
-    """Loads added up: ``total`` (n_blocks, 15), ``gross`` (n_blocks, 15) without signs, and each in words.
+    """Loads added up: ``total`` (n_blocks, 15), ``gross`` (n_blocks, 15) without signs, and each of them.
 
     following : (n_blocks, 15) the part of the total that turns with the blocks, whose levers are not in the total
     complete  : none of them left a fault
@@ -47,7 +47,7 @@ class _Sum:
     total: FloatArray
     gross: FloatArray
     following: FloatArray
-    words: tuple[str, ...] = ()
+    loads: tuple[AppliedLoad, ...] = ()
     complete: bool = True
 
     @property
@@ -58,15 +58,14 @@ class _Sum:
 
     def plus(self, *loads: AppliedLoad | None) -> _Sum:
         """The same with more loads; None for those that left a fault."""
-        total, gross, following, words = self.total.copy(), self.gross.copy(), self.following.copy(), self.words
+        total, gross, following = self.total.copy(), self.gross.copy(), self.following.copy()
         applied = [load for load in loads if load is not None]
         for load in applied:
             keeps = without_levers(load.wrenches[:, :6]) if load.follows else load.wrenches
             total[load.blocks] += keeps
             gross[load.blocks] += np.abs(keeps)
             following[load.blocks] += load.follows * load.wrenches
-            words = (*words, load.words)
-        return _Sum(total, gross, following, words, self.complete and len(applied) == len(loads))
+        return _Sum(total, gross, following, (*self.loads, *applied), self.complete and len(applied) == len(loads))
 
 
 @np.errstate(over="ignore", invalid="ignore")  # loads beyond what a double holds are refused as such
@@ -101,8 +100,8 @@ def build_load_cases(name: str, section: LoadCaseSection, site: LoadSite) -> tup
             name if position is None else case_name(position),
             dead.net,
             own.net,
-            dead.words,
-            own.words,
+            dead.loads,
+            own.loads,
             travel=position,
             tilt=variant.tilt,
             pushover=_pushing(name, section, dead, own, site) if here else None,

@@ -11,6 +11,7 @@ from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.deck.sections.assessment import AssessmentSection
 from mbla.deck.units import Units
 from mbla.errors import Notice, UsageError
+from mbla.model.applied_load import AppliedLoad
 from mbla.model.fill import Fill
 from mbla.model.guides import NO_GUIDES, Guides, joined, together
 from mbla.model.solids.blocks import Blocks
@@ -92,7 +93,7 @@ class LoadCase:
     """Loads of one case on every block, about its centroid.
 
     dead_load, live_load : (n_blocks, 6) force N and moment N m, also on fixed blocks (they go into the support)
-    dead_words, live_words : the loads in words, for the listing
+    dead, live : the loads that these are the sums of
     settlement : settling support, None for none
     objective  : force whose least or greatest value is looked for, as reaction of a load cell; None for none
     travel, tilt : where it is a position of a travelling load, or a tilting table
@@ -104,8 +105,8 @@ class LoadCase:
     name: str
     dead_load: FloatArray
     live_load: FloatArray
-    dead_words: tuple[str, ...]
-    live_words: tuple[str, ...]
+    dead: tuple[AppliedLoad, ...]
+    live: tuple[AppliedLoad, ...]
     settlement: Settlement | None = None
     objective: Objective | None = None
     travel: TravelPosition | None = None
@@ -121,6 +122,16 @@ class LoadCase:
         if self.tilt is not None:
             return Angle(self.tilt)
         return LoadFactor() if self.travel is None else Travel(self.travel)
+
+    @property
+    def dead_words(self) -> tuple[str, ...]:
+        """The dead loads in words."""
+        return tuple(load.words for load in self.dead)
+
+    @property
+    def live_words(self) -> tuple[str, ...]:
+        """The live loads in words."""
+        return tuple(load.words for load in self.live)
 
     @property
     def deck_name(self) -> str:

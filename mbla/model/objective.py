@@ -27,6 +27,7 @@ from mbla.deck.sections.objective import ForceSection, ObjectiveSection
 from mbla.deck.suggestions import listed
 from mbla.deck.text.tree import KeyPath
 from mbla.errors import Finding
+from mbla.model.applied_load import without_forces
 from mbla.model.guides import Guides, held_along
 from mbla.model.loads.load_site import LoadSite
 from mbla.model.model import LoadCase
@@ -68,14 +69,13 @@ def build_objective(
     for end, sense in ENDS.items():
         objective = Objective(load_case.name, end, at, found.sides, found.ties, found.direction)
         settlement = Settlement(none, np.zeros((0, 6)), False, found.words, np.nan, weight, sense)
-        live = tuple(f"{at:.6g} times {each}" for each in load_case.live_words)
         case = replace(
             load_case,
             name=f"{load_case.name}@{end}",
             dead_load=dead,
             live_load=np.zeros_like(dead),
-            dead_words=(*load_case.dead_words, *live),
-            live_words=(f"{end} {found.words}",),
+            dead=(*load_case.dead, *(load.times(at) for load in load_case.live)),
+            live=(without_forces(f"{end} {found.words}"),),
         )
         cases.append(replace(case, settlement=settlement, objective=objective))
     return cases

@@ -26,6 +26,7 @@ from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.deck.sections.load_cases import LoadCaseSection, SettlementSection, supports_of
 from mbla.deck.text.tree import KeyPath
 from mbla.errors import Finding
+from mbla.model.applied_load import AppliedLoad, without_levers
 from mbla.model.guides import slide, turn
 from mbla.model.model import LoadCase
 from mbla.model.selectors import Roster, select_blocks
@@ -143,12 +144,12 @@ def with_reference(load_case: LoadCase, reference: float) -> LoadCase:
     dead, live = load_case.dead_load.copy(), np.zeros_like(load_case.dead_load)
     live[settlement.blocks] = settlement.unit * per_unit
     dead[settlement.blocks] = 0.0 if np.isnan(reference) else -reference * per_unit
-    words = (settlement.words,)
+    pull = AppliedLoad(settlement.blocks, without_levers(live[settlement.blocks]), settlement.words)
     return replace(
         load_case,
         dead_load=dead,
         live_load=live,
-        live_words=words,
+        live=(pull,),
         settlement=replace(settlement, reference=reference),
     )
 

@@ -19,6 +19,7 @@ from mbla.deck.sections.load_cases import LoadCaseSection
 from mbla.deck.sections.supports import SymmetryPlane
 from mbla.deck.text.tree import KeyPath
 from mbla.errors import DeckError, Finding, Notice
+from mbla.model.applied_load import AppliedLoad
 from mbla.model.fill import Fill
 from mbla.model.guides import Guides
 from mbla.model.join import halves_joined, polyhedra_of
@@ -265,6 +266,13 @@ def _load_case(case: LoadCase, model: Model, mirror: Mirror, centroids: FloatArr
         np.add.at(total, mirror.image_of, matrix @ moved @ matrix.T)
         return total.reshape(-1, 9)
 
+    def whole(load: AppliedLoad) -> AppliedLoad:
+        own_part = np.zeros((count, 15))
+        own_part[load.blocks] = load.wrenches
+        acted_on = np.union1d(load.blocks, mirror.image_of[load.blocks])
+        both_parts = np.hstack([both(own_part[:, :6]), both_levers(own_part[:, 6:], own_part)])
+        return replace(load, blocks=acted_on, wrenches=both_parts[acted_on])
+
     push = case.pushover
     if push is not None:
         push = replace(
@@ -276,7 +284,10 @@ def _load_case(case: LoadCase, model: Model, mirror: Mirror, centroids: FloatArr
             live_following=both(push.live_following),
             live_following_levers=both_levers(push.live_following_levers, push.live_following),
         )
-    mirrored = replace(case, dead_load=both(case.dead_load), live_load=both(case.live_load), pushover=push)
+    dead, live = (tuple(map(whole, loads)) for loads in (case.dead, case.live))
+    mirrored = replace(
+        case, dead_load=both(case.dead_load), live_load=both(case.live_load), dead=dead, live=live, pushover=push
+    )
     if case.settlement is None:
         return mirrored
     return with_reference(replace(mirrored, settlement=_settlement(case.settlement, mirror)), np.nan)

@@ -84,6 +84,17 @@ def test_the_blocks_are_those_of_the_whole(tmp_path: Path) -> None:
             np.testing.assert_allclose(mine, theirs, atol=1e-9)
 
 
+@pytest.mark.parametrize("text", [HALF, WHOLE, f"{HEAD}{TABLE.rpartition('  leg_sinks')[0]}"])
+def test_the_loads_of_a_case_add_up_to_its_load(tmp_path: Path, text: str) -> None:
+    """Of a whole, of a half with its images, and of a quarter, whose slab is cut by both planes."""
+    for case in model_of(tmp_path, text).load_cases:
+        for loads, total in ((case.dead, case.dead_load), (case.live, case.live_load)):
+            sums = np.zeros_like(total)
+            for load in loads:
+                sums[load.blocks] += load.wrenches[:, :6]
+            np.testing.assert_allclose(sums, total, atol=1e-12 * np.abs(total).max())
+
+
 def test_the_contacts_are_those_of_the_whole(tmp_path: Path) -> None:
     found = []
     for text in (HALF, WHOLE):

@@ -15,6 +15,7 @@ from mbla.contacts.contacts import ContactReport, Contacts
 from mbla.deck.sections.assessment import AssessmentSection
 from mbla.deck.units import Units
 from mbla.errors import Message, Notice
+from mbla.model.applied_load import without_forces
 from mbla.model.fill import Fill
 from mbla.model.guides import Guides
 from mbla.model.model import Ground, Joint, LoadCase, Model, Pushing
@@ -156,11 +157,12 @@ def tower_model() -> Model:
     dead, live = zeros.copy(), zeros.copy()
     dead[:, 2] = -weights
     live[:, 0] = weights
-    words = ("gravity (0, 0, -9.81) m/s2",), ("acceleration (1, 0, 0) g on all blocks",)
+    weight = without_forces("gravity (0, 0, -9.81) m/s2", on_masses=True)
+    push = without_forces("acceleration (1, 0, 0) g on all blocks", on_masses=True, in_g=True)
     cases = (
-        LoadCase("push_x", dead, live, *words),
-        LoadCase("fall", dead, live, *words),
-        LoadCase("not_run", dead, live, *words),
+        LoadCase("push_x", dead, live, (weight,), (push,)),
+        LoadCase("fall", dead, live, (weight,), (push,)),
+        LoadCase("not_run", dead, live, (weight,), (push,)),
     )
     return Model(
         title="Tower and brick",

@@ -235,11 +235,9 @@ def load_on_structure(model: Model, load_case: LoadCase, load_factor: float) -> 
 def live_load_in_g(model: Model, load_case: LoadCase) -> float | None:
     """Size of a live load that is one uniform acceleration, in g; None for any other live load.
 
-    Only then is the load factor an acceleration. A force that happens to be proportional to mass does not count: the
-    words of the deck decide first.
+    Only then is the load factor an acceleration. A force that happens to be proportional to mass does not count.
     """
-    words = load_case.live_words
-    if not words or not all(word.startswith("acceleration") and ", by height" not in word for word in words):
+    if not load_case.live or not all(load.in_g for load in load_case.live):
         return None
     loaded = np.any(load_case.live_load[:, :3] != 0, axis=1)
     if not loaded.any():

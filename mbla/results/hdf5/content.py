@@ -224,6 +224,7 @@ PARTS_OF_LOADS: dict[str, Any] = {
 
 def _loads(load_case: LoadCase) -> Content:
     content = _held(load_case, LoadCase, "cases/*")
+    content |= {"dead_words": load_case.dead_words, "live_words": load_case.live_words}
     for name, kind in PARTS_OF_LOADS.items():
         part = getattr(load_case, name)
         if part is not None:

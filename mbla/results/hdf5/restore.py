@@ -19,6 +19,7 @@ from mbla.deck.sections.assessment import AssessmentSection
 from mbla.deck.sections.selectors import POSITIONS
 from mbla.deck.units import KILOGRAMS, METRES, NEWTONS, Units
 from mbla.errors import Notice
+from mbla.model.applied_load import AppliedLoad, without_forces
 from mbla.model.fill import Fill
 from mbla.model.guides import NO_GUIDES, Guides
 from mbla.model.model import Ground, Joint, LoadCase, Model, Pushing
@@ -252,8 +253,8 @@ def _load_case(name: str, get: dict[str, Any]) -> LoadCase:
         name,
         get["dead_load"],
         get["live_load"],
-        tuple(get["dead_words"]),
-        tuple(get["live_words"]),
+        tuple(map(_applied, get["dead_words"])),
+        tuple(map(_applied, get["live_words"])),
         settlement=settlement,
         objective=Objective(**objective) if objective else None,
         travel=TravelPosition(**travel) if travel else None,
@@ -261,6 +262,13 @@ def _load_case(name: str, get: dict[str, Any]) -> LoadCase:
         pushover=Pushing(**pushed) if (pushed := _part(get, "pushover/")) else None,
         assessment=AssessmentSection.model_validate_json(asked) if (asked := get.get("assessment/asked")) else None,
     )
+
+
+def _applied(words: str) -> AppliedLoad:
+    """A load without its forces, of which the file has the sums alone."""
+    on_masses = any(kind in words for kind in ("gravity", "acceleration", "tilt"))
+    in_g = words.startswith("acceleration") and ", by height" not in words
+    return without_forces(words, on_masses=on_masses, in_g=in_g)
 
 
 ROUNDING = 1e-6

@@ -15,6 +15,7 @@ from dataclasses import replace
 import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
+from mbla.model.applied_load import AppliedLoad
 from mbla.model.model import LoadCase, Model
 from mbla.questions.reaction import Settlement
 from mbla.questions.travel import TravelPosition
@@ -26,8 +27,6 @@ from mbla.results.series import position_of, without_vehicle, worst_known
 
 SAME = 1e-6
 """relative difference up to which blocks have the same acceleration; results are stored in full, so it is rounding"""
-MASS_LOADS = ("gravity", "acceleration", "tilt")
-"""words of loads that are proportional to mass"""
 NOTHING = 1e-5
 """of a load, relative to the largest, that is rounding"""
 LONGEST, SHORTEST = 0.12, 0.03
@@ -44,7 +43,7 @@ def shown_loads(scene: Scene, kind: str) -> list[Mark]:
     falls = kind == "mechanism" and scene.mechanics is None and scene.case.solution.certificate is not None
     if kind == "model" or falls:
         text = text_of("dead load", case.dead_words)
-        found += marks_of_load(scene, text, DEAD_LOAD, scene.dead_load, case.dead_words)
+        found += marks_of_load(scene, text, DEAD_LOAD, scene.dead_load, case.dead)
     if kind != "model":
         return found + live_marks(scene, case, "live load", LIVE_LOAD, place=bool(found))
     cases: dict[str, list[CaseResult]] = {}
@@ -81,7 +80,7 @@ def live_marks(scene: Scene, case: LoadCase, label: str, colour: str, place: int
         text = f"{label.replace('live load', '').strip()} {case.settlement.words}".strip()
         return _of_settlement(scene, text if label else "", colour, case.settlement)
     text = text_of(label, case.live_words) if label else ""
-    return marks_of_load(scene, text, colour, case.live_load, case.live_words, case.travel, place)
+    return marks_of_load(scene, text, colour, case.live_load, case.live, case.travel, place)
 
 
 def text_of(name: str, words: tuple[str, ...]) -> str:
@@ -95,19 +94,19 @@ def marks_of_load(
     text: str,
     colour: str,
     loads: FloatArray,
-    words: Sequence[str],
+    applied: Sequence[AppliedLoad],
     travel: TravelPosition | None = None,
     place: int = 0,
 ) -> list[Mark]:
     """Arrows of loads on free blocks about their centroids, (n_blocks, 6); rings of moments without a force.
 
-    words  : of the load case; travel : the vehicle among the loads, where one travels
+    applied : that they are the sum of; travel : the vehicle among them, where one travels
     """
     model, blocks, size = scene.model, scene.model.blocks, scene.size
     rest = np.where(model.fixed[:, None], 0.0, without_vehicle(blocks, loads, travel))
     found = []
     acceleration, accelerated = np.zeros(3), np.zeros(len(rest), dtype=bool)
-    if any(word in each for word in MASS_LOADS for each in words):
+    if any(load.on_masses for load in applied):
         acceleration, accelerated = common_acceleration(model, rest)
     if accelerated.any():
         rest = rest - _mass_loads(model, acceleration, accelerated)

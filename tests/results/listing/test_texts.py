@@ -16,6 +16,7 @@ import pytest
 from mbla.assembly.assembly import Assembly
 from mbla.codes.assess import assessment_of
 from mbla.errors import Message
+from mbla.model.applied_load import without_forces
 from mbla.questions.reaction import Settlement
 from mbla.questions.tilt import Tilt
 from mbla.results.listing.history_words import path_words
@@ -102,7 +103,7 @@ CASES = {
     "tilt": case(load={"tilt": TILT}, associative=None),
     "tilt, unbounded": case(Status.UNBOUNDED, load={"tilt": TILT}, **NONE),
     "tilt, unbounded, associative": case(Status.UNBOUNDED, of=ASSOCIATIVE, load={"tilt": TILT}, **NONE),
-    "force": case(load={"live_words": ("force (1, 0, 0) N on tower[0]",)}),
+    "force": case(load={"live": (without_forces("force (1, 0, 0) N on tower[0]"),)}),
     "approximate": case(Status.APPROXIMATE, reason="did not settle"),
     "assessment": case(of=ASSOCIATIVE, load={"assessment": ASSESSED}),
     "failed": case(Status.NOT_VERIFIED, checks=FAILED),

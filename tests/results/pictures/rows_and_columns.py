@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 
 from mbla.assembly.assembly import Assembly
+from mbla.model.applied_load import without_forces
 from mbla.results.results import Results
 from tests.results.synthetic import cuboids, horizontal_contacts, tower_mechanics, tower_results
 
@@ -55,7 +56,12 @@ def column_of_blocks(*right: float) -> Results:
     )
     loads = np.zeros((count + 1, 6))
     loads[-1, 0] = 1.0
-    load_case = replace(results.model.load_cases[0], dead_load=0 * loads, live_load=loads, live_words=("push",))
+    load_case = replace(
+        results.model.load_cases[0],
+        dead_load=0 * loads,
+        live_load=loads,
+        live=(without_forces("push"),),
+    )
     model = replace(results.model, blocks=blocks, fixed=np.arange(count + 1) == 0, grounds=(), load_cases=(load_case,))
     solution = replace(results.cases[0].solution, mechanics=mechanics)
     case = replace(results.cases[0], load_case=load_case, solution=solution)

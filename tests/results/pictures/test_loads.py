@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from mbla.model.applied_load import AppliedLoad, without_forces
 from mbla.questions.reaction import Settlement
 from mbla.questions.travel import TravelPosition
 from mbla.results.pictures.loads import MANY, arrow_steps, live_marks, marks_of_load, shown_loads
@@ -18,7 +19,8 @@ from mbla.results.results import Results
 from tests.results.pictures.rows_and_columns import row_of_blocks
 from tests.results.synthetic import G, standing_at, tower_model, tower_results
 
-GRAVITY = ("gravity (0, 0, -9.81) m/s2",)
+GRAVITY = without_forces("gravity (0, 0, -9.81) m/s2", on_masses=True)
+FORCE = without_forces("force")
 
 
 def scene(results: Results | None = None, kind: str = "model") -> Scene:
@@ -34,8 +36,8 @@ def wrench(force: list[float], point: list[float], block: int) -> np.ndarray:
     return loads
 
 
-def marks(loads: np.ndarray, *words: str, travel: TravelPosition | None = None) -> list[Mark]:
-    return marks_of_load(scene(), "load", LIVE_LOAD, loads, words, travel)
+def marks(loads: np.ndarray, *applied: AppliedLoad, travel: TravelPosition | None = None) -> list[Mark]:
+    return marks_of_load(scene(), "load", LIVE_LOAD, loads, applied, travel)
 
 
 def tips(mark: Mark) -> list[list[float]]:
@@ -58,7 +60,7 @@ def ways(mark: Mark) -> np.ndarray:
     ids=["on its face", "inside", "on top", "slanted"],
 )
 def test_arrow_ends_where_the_force_enters_the_block(force: list[float], point: list[float], tip: list[float]) -> None:
-    (mark,) = marks(wrench(force, point, 1), "force on tower[0]")
+    (mark,) = marks(wrench(force, point, 1), FORCE)
     assert mark.arrows
     assert mark.bodies.tolist() == [[1, 1], [1, 1]]
     assert tips(mark) == [pytest.approx(tip)]
@@ -66,7 +68,7 @@ def test_arrow_ends_where_the_force_enters_the_block(force: list[float], point: 
 
 
 def test_loads_on_supports_are_not_drawn() -> None:
-    assert not marks(wrench([5, 0, 0], [0, 0, 0], 0), "force on base[0]")
+    assert not marks(wrench([5, 0, 0], [0, 0, 0], 0), FORCE)
 
 
 def test_acceleration_is_one_arrow_above_and_forces_beside_it_are_drawn_by_themselves() -> None:
@@ -74,7 +76,7 @@ def test_acceleration_is_one_arrow_above_and_forces_beside_it_are_drawn_by_thems
     loads = np.zeros((3, 6))
     loads[:, 2] = -G * shown.model.blocks.masses
     loads[1, 0] = 3.0
-    above, force = marks_of_load(shown, "", LIVE_LOAD, loads, (*GRAVITY, "force"))
+    above, force = marks_of_load(shown, "", LIVE_LOAD, loads, (GRAVITY, FORCE))
     assert ways(above) == pytest.approx(np.array([[0, 0, -1]]))
     assert tips(above)[0][2] > 2.0
     assert above.bodies.tolist() == [[-1, -1], [-1, -1]]
@@ -89,14 +91,14 @@ def test_masses_that_blocks_carry_along_make_no_moment() -> None:
     loads[:, 2] = -G * blocks.masses
     loads[:, 3:] = np.cross(np.full((3, 3), 0.3), np.outer(blocks.added_masses, [0, 0, -G]))
     heavy = scene(replace(results, assembly=replace(results.assembly, model=replace(results.model, blocks=blocks))))
-    assert len(marks_of_load(heavy, "", LIVE_LOAD, loads, GRAVITY)) == 1
+    assert len(marks_of_load(heavy, "", LIVE_LOAD, loads, (GRAVITY,))) == 1
 
 
 def test_accelerations_that_differ_from_block_to_block_are_forces() -> None:
     """As of a tilt about different points: no two blocks have the same force for their mass."""
     loads = np.zeros((3, 6))
     loads[1:, 0] = tower_model().blocks.masses[1:] * [1.0, 2.0]
-    (mark,) = marks(loads, "acceleration (1, 0, 0) g on 2 blocks times 0.1 to 0.2, by height")
+    (mark,) = marks(loads, without_forces("acceleration by height", on_masses=True))
     assert mark.bodies[::2, 0].tolist() == [1, 2]
 
 
@@ -104,7 +106,7 @@ def test_accelerations_that_differ_from_block_to_block_are_forces() -> None:
 def test_a_moment_is_a_ring_about_the_centroid_that_turns_its_way(sense: float) -> None:
     loads = np.zeros((3, 6))
     loads[2, 4] = 7.0 * sense
-    ring, tip = marks(loads, "moment on brick[0]")
+    ring, tip = marks(loads, FORCE)
     arms = ring.points - tower_model().blocks.centroids[2]
     assert np.ptp(np.linalg.norm(arms, axis=1)) < 1e-9
     turns = np.cross(arms[ring.pairs[:, 0]], arms[ring.pairs[:, 1]])
@@ -118,7 +120,7 @@ def test_a_vehicle_has_an_arrow_for_each_axle_on_its_path() -> None:
     forces = np.array([[0, 0, -7.0], [0, 0, -5.0], [0, 0, -3.0]])
     vehicle = TravelPosition("train", 1, 1, points, np.array([9.0, 0.8, 0.2]), forces, np.array([-1, 1, 1]))
     loads = wrench([0, 0, -5], points[1], 1) + wrench([0, 0, -3], points[2], 1) + wrench([2, 0, 0], [0, 0.5, 2], 1)
-    (mark,) = marks(loads, "force", "position 1", travel=vehicle)
+    (mark,) = marks(loads, FORCE, without_forces("position 1"), travel=vehicle)
     assert np.array(tips(mark))[:, 0].tolist() == pytest.approx([0, 0.8, 0.2])
 
 
