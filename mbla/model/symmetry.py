@@ -7,7 +7,7 @@ with its image: both without their faces on the plane.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -26,7 +26,7 @@ from mbla.model.join import halves_joined, polyhedra_of
 from mbla.model.loads.entry import entries_of
 from mbla.model.loads.gravity import with_gravity
 from mbla.model.loads.load_kind import load_kind
-from mbla.model.model import Ground, LoadCase, Model
+from mbla.model.model import Ground, LoadCase, Model, Pushing
 from mbla.model.selectors import Roster, check_overrides, select_blocks
 from mbla.model.settlement import with_reference
 from mbla.model.solids.blocks import BlockLabels, Blocks, carried_masses, join_labels
@@ -273,24 +273,33 @@ def _load_case(case: LoadCase, model: Model, mirror: Mirror, centroids: FloatArr
         both_parts = np.hstack([both(own_part[:, :6]), both_levers(own_part[:, 6:], own_part)])
         return replace(load, blocks=acted_on, wrenches=both_parts[acted_on])
 
-    push = case.pushover
-    if push is not None:
-        push = replace(
-            push,
-            blocks=np.concatenate([push.blocks, mirror.image_of[push.blocks[~mirror.halves[push.blocks]]]]),
-            dead_levers=both_levers(push.dead_levers, case.dead_load - push.dead_following),
-            live_levers=both_levers(push.live_levers, case.live_load - push.live_following),
-            dead_following=both(push.dead_following),
-            live_following=both(push.live_following),
-            live_following_levers=both_levers(push.live_following_levers, push.live_following),
-        )
     dead, live = (tuple(map(whole, loads)) for loads in (case.dead, case.live))
+    push = None if case.pushover is None else _pushing(case.pushover, case, mirror, both, both_levers)
     mirrored = replace(
         case, dead_load=both(case.dead_load), live_load=both(case.live_load), dead=dead, live=live, pushover=push
     )
     if case.settlement is None:
         return mirrored
     return with_reference(replace(mirrored, settlement=_settlement(case.settlement, mirror)), np.nan)
+
+
+def _pushing(
+    push: Pushing,
+    case: LoadCase,
+    mirror: Mirror,
+    both: Callable[[FloatArray], FloatArray],
+    both_levers: Callable[[FloatArray, FloatArray], FloatArray],
+) -> Pushing:
+    """What is pushed, and the loads as they turn, of both halves."""
+    return replace(
+        push,
+        blocks=np.concatenate([push.blocks, mirror.image_of[push.blocks[~mirror.halves[push.blocks]]]]),
+        dead_levers=both_levers(push.dead_levers, case.dead_load - push.dead_following),
+        live_levers=both_levers(push.live_levers, case.live_load - push.live_following),
+        dead_following=both(push.dead_following),
+        live_following=both(push.live_following),
+        live_following_levers=both_levers(push.live_following_levers, push.live_following),
+    )
 
 
 def _settlement(settlement: Settlement, mirror: Mirror) -> Settlement:
