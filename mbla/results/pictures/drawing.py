@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from mbla.arrays import FloatArray
+from mbla.arrays import FloatArray, IntArray
 from mbla.results.pictures.camera import Camera, Room, fitted, view_of_case
 from mbla.results.pictures.fill import fill_marks
 from mbla.results.pictures.geometry import block_edges, edges_of_blocks
@@ -153,10 +153,10 @@ def _draw_image(axes: Any, camera: Camera, scene: Scene, drawing: Drawing, eleva
     axes.imshow(image, aspect="auto", interpolation="none", extent=(0.0, camera.aspect, 0.0, 1.0))
 
 
-def ghost_edges(scene: Scene) -> Any:
-    """Edges of the blocks that move, (n, 2) vertices."""
+def ghost_edges(scene: Scene) -> IntArray:
+    """Edges of the blocks that are seen to have moved, (n, 2) vertices."""
     blocks = scene.model.blocks
-    return edges_of_blocks(blocks, block_edges(blocks), np.any(scene.motion != 0, axis=1))
+    return edges_of_blocks(blocks, block_edges(blocks), scene.displaced)
 
 
 def _handles(page: Page, drawing: Drawing) -> list[Any]:

@@ -32,7 +32,7 @@ NOTHING = 1e-5
 LONGEST, SHORTEST = 0.12, 0.03
 """of arrows, over the size of the structure"""
 LONGEST_OF_MANY, MANY = 0.04, 24
-"""the same of more forces than that, which would cover the structure and each other"""
+"""the same of more forces than that, which would cover the structure and each other; blocks hide them"""
 MOST_CASES = 6
 """load cases whose loads a legend names"""
 
@@ -128,7 +128,8 @@ def marks_of_load(
         tips, both = _entries(model, under, points, forces), np.column_stack([under, under])
         if travel is not None and travel.spread:  # the axles on top, and below what lands of them
             tips[len(tips) - int(acting.sum()) :] = travel.points[acting]
-        found.append(arrows(text, colour, tips, arrow_steps(forces, size), both, [text] * len(under)))
+        mark = arrows(text, colour, tips, arrow_steps(forces, size), both, [text] * len(under))
+        found.append(replace(mark, covered=len(under) > MANY))
     turned = np.flatnonzero(np.linalg.norm(about, axis=1) > NOTHING * _moment_size(model, loads))
     if len(turned):
         reach = np.minimum(0.6 * blocks.sizes[turned], LONGEST * size)

@@ -158,7 +158,7 @@ def draw_flat(page: Page, axes: Any, camera: Camera, scene: Scene, drawing: Draw
     _areas(page, axes, face_polygons(blocks, flat, now), facecolors=colours, edgecolors="none", zorder=1)
     edges = seen_edges(blocks, flat)
     _lines(page, axes, now[edges], 1.0 if len(blocks) < MANY else 0.6, INK, zorder=2)
-    moves = np.any(scene.motion != 0, axis=1)[blocks.block_of_vertex[edges[:, 0]]]
+    moves = scene.displaced[blocks.block_of_vertex[edges[:, 0]]]
     dashes = {"linestyles": [(0, (4, 3))], "alpha": 0.8, "zorder": 2.5}
     _lines(page, axes, built[edges[moves]], 0.8, GHOST, **dashes)
     for mark in drawing.marks:

@@ -12,7 +12,7 @@ from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.results.collapse.collapse import NOTABLE, Collapse, Failure, failure_of, fall_of
 from mbla.results.collapse.interface_modes import InterfaceMotion
 from mbla.results.collapse.joint_planes import cluster_joints
-from mbla.results.collapse.motion import drawn_motion, moved_vertices
+from mbla.results.collapse.motion import drawn_motion, largest_displacements, moved_vertices
 from mbla.results.collapse.thrust import points_to_draw
 from mbla.results.force_range import other_end
 from mbla.results.listing.mechanism_words import mechanism_summary
@@ -25,6 +25,9 @@ from mbla.results.pictures.page import FIXED_BLOCK, REST, SLOW
 from mbla.results.record.scene import Scene as RecordScene
 from mbla.results.results import CaseResult, Results
 from mbla.solution.solution import Mechanics, Status
+
+SEEN = 2e-3
+"""displacement over the size of the model that is seen in a picture of it"""
 
 
 @dataclass(frozen=True)
@@ -68,6 +71,11 @@ class Scene(RecordScene):
     def moved(self) -> FloatArray:
         """Vertices as moved, (n_vertices, 3) m."""
         return moved_vertices(self.model.blocks, self.motion)
+
+    @cached_property
+    def displaced(self) -> BoolArray:
+        """Blocks that are seen to have moved, (n_blocks,): those that are drawn where they were, too."""
+        return np.asarray(largest_displacements(self.model.blocks, self.motion) > SEEN * self.size)
 
     @cached_property
     def _moving(self) -> tuple[Collapse, Mechanics] | None:

@@ -21,6 +21,7 @@ from mbla.model.solids.plane import plane_axes
 from mbla.results.collapse.motion import largest_displacements, rigid_frames
 from mbla.results.listing.text import number
 from mbla.results.pictures.camera import axes_of, view_of_case
+from mbla.results.pictures.drawing import ghost_edges
 from mbla.results.pictures.geometry import block_edges
 from mbla.results.pictures.loads import live_marks
 from mbla.results.pictures.marks import Mark, force_marks, joint_marks, moved
@@ -74,6 +75,7 @@ def scene_of(results: Results, case: CaseResult, view: tuple[float, float] | Non
         "triangles": packed(triangles),
         "blockOfTriangle": packed(owners),
         "edges": packed(block_edges(blocks)),
+        "ghost": packed(ghost_edges(scene)),
         "partOfBlock": packed(parts),
         "motion": packed(frames) if moves else None,
         "steps": FRAMES,

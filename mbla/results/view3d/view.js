@@ -130,10 +130,7 @@ window.mblaDrawView3d = function (host, data) {
   );
   let ghost = null;
   if (motion) {
-    const moves = (block) => partOfBlock[block] > 0;
-    const kept = [];
-    for (let k = 0; k < edges.length; k += 2) if (moves(blockOfVertex[edges[k]])) kept.push(edges[k], edges[k + 1]);
-    ghost = add(line(vertices, kept, "#8A8A8A", 1, { visible: false }));
+    ghost = add(line(vertices, unpacked(data.ghost), "#8A8A8A", 1, { visible: false }));
   }
   const layers = [{ name: "edges", colour: "#222222", traces: [edgeTrace], shown: true }];
   if (ghost !== null) layers.push({ name: "as built", colour: "#8A8A8A", traces: [ghost], shown: true });
