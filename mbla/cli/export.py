@@ -31,7 +31,7 @@ def add_plot(commands: Any) -> None:
         "--kind",
         metavar="KIND",
         help="model, mechanism, forces, history, curve (of a pushover), several with commas, or all "
-        "(default: the first three; the mechanism where -o names a file)",
+        "(default: the first three, and the history of a load that travels; the mechanism where -o names a file)",
     )
     command.add_argument("--case", metavar="NAME", help="only this load case")
     command.add_argument(
