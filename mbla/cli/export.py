@@ -46,7 +46,7 @@ def add_plot(commands: Any) -> None:
         help="front, back, left, right, top, iso, below, auto, or AZIMUTH,ELEVATION in degrees, as --view=-60,25",
     )
     command.add_argument(
-        "--scale", default="auto", metavar="X", help="multiple of the displacements that auto draws (default auto)"
+        "--scale", default="auto", metavar="X", help="factor on the displacements of the default, auto"
     )
     add_page_options(command)
 

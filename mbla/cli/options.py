@@ -123,5 +123,5 @@ def add_page_options(command: Any) -> None:
     command.add_argument("--size", default="1600x1000", metavar="WxH", help="pixels of a PNG at 100 dpi")
     command.add_argument("--dpi", type=dots, default=100, help="dots per inch of a PNG (default 100)")
     command.add_argument(
-        "--format", choices=["png", "svg", "pdf"], default="png", help="of pictures in a folder (default png)"
+        "--format", choices=["png", "svg", "pdf"], default="png", help="format of pictures in a folder (default png)"
     )

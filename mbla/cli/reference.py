@@ -74,7 +74,7 @@ def add_new(commands: Any) -> None:
     )
     command.set_defaults(action=new)
     command.add_argument("name", metavar="NAME")
-    command.add_argument("--kind", choices=tuple(KINDS), default="wall", help="of structure; wall unless given")
+    command.add_argument("--kind", choices=tuple(KINDS), default="wall", help="kind of structure (default wall)")
     command.add_argument("--force", action="store_true", help="replace an existing file")
 
 

@@ -15,7 +15,7 @@ def add_strengthen(commands: Any) -> None:
     """``mbla strengthen``."""
     command = commands.add_parser(
         "strengthen",
-        help="the cheapest ties with which a structure carries what it has to",
+        help="the cheapest ties with which a structure carries its required loads",
         description="Find the cheapest capacities of the candidates of the section strengthen with which each load "
         "case carries its required load factor: one program of all load cases, whose mechanisms prove what they cost "
         "at least. Then the strengthened structure is analysed by the deck's own flow rule, and while that falls short "

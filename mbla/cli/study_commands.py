@@ -136,7 +136,7 @@ def add_find(commands: Any) -> None:
     """``mbla find``."""
     command = commands.add_parser(
         "find",
-        help="the value of a parameter at which a result is what it should be",
+        help="the value of a parameter at which a load factor is a target, or the structure just stands",
         description="Look for the value of a number of the deck at which a load factor is a target, or at which the "
         "dead load is just carried, between two bounds: by slopes of the associative load factor, which cost no "
         "further solve, so that 5 to 8 solves do. The question stands in the section find of the deck; options go "
@@ -148,15 +148,22 @@ def add_find(commands: Any) -> None:
     )
     command.set_defaults(action=find, about={"deck": "deck"}, output=None, force=False)
     command.add_argument("deck", type=Path, metavar="DECK")
-    command.add_argument("--parameter", metavar="KEY.PATH", help="of a real number in the deck, as for --set")
+    command.add_argument("--parameter", metavar="KEY.PATH", help="key path of a real number in the deck, as for --set")
     command.add_argument(
         "--target", type=target, metavar="WHAT", help="load_factor=VALUE, least_load_factor=VALUE, or stands"
     )
-    command.add_argument("--bounds", nargs=2, type=float, metavar=("LOW", "HIGH"), help="in the deck's units")
-    command.add_argument("--case", metavar="NAME", help="the load case; needed if there are several")
-    command.add_argument("--scan", type=points, metavar="N", help="equal steps between the bounds to look at first")
     command.add_argument(
-        "--tolerance", type=relative_above_zero, metavar="T", help="of the value, over the larger bound (default 1e-6)"
+        "--bounds", nargs=2, type=float, metavar=("LOW", "HIGH"), help="least and greatest value, in the deck's units"
+    )
+    command.add_argument("--case", metavar="NAME", help="the load case; needed if there are several")
+    command.add_argument(
+        "--scan", type=points, metavar="N", help="equal steps between the bounds that are solved first"
+    )
+    command.add_argument(
+        "--tolerance",
+        type=relative_above_zero,
+        metavar="T",
+        help="error of the value, over the larger bound (default 1e-6)",
     )
     command.add_argument(
         "--set", action="append", default=[], metavar="KEY.PATH=VALUE", help="change a value of the deck (repeatable)"
