@@ -11,9 +11,7 @@ p (Coulomb, p ≥ ‖v_T‖) and d ≥ 0 (crushing); the multiplier of the tensi
 
 In a plane ‖v_T‖ ≤ p is v_T ≤ p and −v_T ≤ p, half-lines again, so that the program is linear.
 
-The dual variables of the rows are the contact forces, and −(dual of f_L·u = 1) is the load factor. Form and accuracy
-were compared with the static form: at a solver tolerance of 1e-6 the static form was 0.6 % low on a wall of 410
-blocks, this one 2e-5.
+The dual variables of the rows are the contact forces, and −(dual of f_L·u = 1) is the load factor.
 """
 
 from __future__ import annotations

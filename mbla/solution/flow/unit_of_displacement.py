@@ -1,8 +1,7 @@
 """The measure of displacement on a path: how far the live load moves the structure while its joints are elastic.
 
-All joints stick, whatever their friction, but those that nothing presses at rest and that the live load opens: two
-leaves that are pushed apart do not hold each other, and with their joint stuck the measure was 500 times too short.
-On walls, vaults and domes, whose free perpends open, they lengthen it by 0 to 20 per cent.
+All joints stick, whatever their friction, but for joints without pressure at rest that the live load opens: two leaves
+that are pushed apart do not hold each other.
 """
 
 from __future__ import annotations

@@ -10,13 +10,11 @@ so that sliding at N = N̄ needs the true shear while normality gives the dilata
 associative forces. Parameters: α ``slope`` (share of the friction slope that is kept), β ``averaging``, ``tolerance``,
 ``max_programs``. With a dilatancy angle ψ in the joints the slope is tan ψ where that is the larger.
 
-Published runs take α slightly above zero and stop when the load factor settles. Measured on the walls of Ferris and
-Tin-Loi: with α = 0.01 the load factor settles near 0.643, 0.402, 0.232 while single forces go on jumping and exceed
-their true friction by up to half a block's weight; any α > 0 is a dilatancy, which locks confined joints. With α = 0
-and β = 0.6 forces settle too, on solutions of the exact law (0.6415, 0.3682, 0.2193). So α = 0 is the default here, and
-the sequence stops only when the load factor has settled and forces and velocities fit the scheme's own law. Forces that
-jump along self-stresses are averaged over the last programs: the mean balances the mean load factor and lies closer to
-the true cones. The solution found is one of many.
+Published runs take α slightly above zero and stop when the load factor settles. Any α > 0 is a dilatancy, which locks
+confined joints, and single forces go on jumping beyond their true friction. With α = 0 and β = 0.6 forces settle as
+well, on solutions of the exact law. So α = 0 is the default here, and the sequence stops only when the load factor has
+settled and forces and velocities fit the scheme's own law. Forces that jump along self-stresses are averaged over the
+last programs: the mean balances the mean load factor and lies closer to the true cones. The solution is one of many.
 """
 
 from __future__ import annotations
