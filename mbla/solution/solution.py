@@ -272,7 +272,7 @@ class Checks:
                                rule claimed
     live_power               : live load times mechanism, should be 1
     power_balance            : dissipation minus external power, over the larger of the two
-    static_bound, kinematic_bound : of the associative load factor, valid whatever the solver did
+    static_bound, kinematic_bound : of the associative load factor, independent of the solver
     gap                      : their relative distance
     tension_violation        : largest tension beyond tensile strength, over mean block weight
     slip_residual            : share of the power balance that sliding against friction leaves unexplained; the rest of

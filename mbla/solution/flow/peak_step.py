@@ -98,7 +98,7 @@ FALL, QUICK, WHOLE, LEAST = 0.2, 0.01, 0.95, 1e-24
 that length, and least products over n₀²."""
 
 EXACT, EXACT_OF_LAWS, STEPS = 1e-6, 3e-5, 80
-"""Misfit of the law with which the step is solved; the same where interfaces have a law of their own; most directions."""
+"""Misfit of the law with which the step is solved; the same with interfaces of a law of their own; most directions."""
 
 NEWTON = 8
 """Iterations of Newton's method at most."""
