@@ -133,7 +133,7 @@ class Contacts:
 
 @dataclass(frozen=True)
 class TieContacts:
-    """Ties as contact points: what they carry, and the forces that are not those between two bodies in one line.
+    """Ties as contact points: their strengths, and the forces beside those along the line of two bodies.
 
     A tie has a force N = senses × (its tension) − offsets between −tension and compression, and no shear.
 

@@ -46,8 +46,8 @@ REACH = 0.05
 whose near ones touch."""
 
 NARROW, EDGE = 1e-6, 1e-3
-"""Width of a common surface, over block size, below which it is rounding, facets that share an edge alone, and below
-which facets that are not in contact as built are none: beside a joint that presses they share what overlaps there."""
+"""Width of a common surface, over block size: below the first the facets share no more than an edge; below the second
+facets that were not in contact as built are none, as beside a pressed joint facets share the width of the overlap."""
 
 
 @dataclass(frozen=True)

@@ -32,12 +32,12 @@ OPTIONAL = ("joint",)
 FLAT = 1e-6
 """area over perimeter squared below which an outline has none"""
 FACING = 0.99
-"""cosine of the angle between an interface and a face or another one on which it may lie, as of faces of one facet"""
+"""cosine of the greatest angle between an interface and a face on which it lies, and between two such faces"""
 
 
 @dataclass(frozen=True)
 class _Bodies:
-    """What interfaces may lie on; tolerance relative to block size."""
+    """Faces of bodies on which interfaces may lie; tolerance relative to block size."""
 
     blocks: Blocks
     members: dict[str, IntArray]

@@ -143,7 +143,7 @@ def _rounded(corners: Corners, n: int, distance: FloatArray) -> tuple[Corners, i
 
 
 FLAT = 1e-9
-"""Area of a triangle, over that of its surface, up to which it is no piece but rounding of corners on one line."""
+"""Greatest area of a triangle, over that of its surface, that is rounding of corners on one line, and no piece."""
 
 
 def in_pieces(corners: Corners, chosen: BoolArray) -> tuple[Corners, IntArray]:

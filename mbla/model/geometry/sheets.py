@@ -19,11 +19,11 @@ from mbla.model.solids.polyhedra import Polyhedra, turn_faces
 from mbla.model.solids.ragged import row_maxima
 
 FLAT = 0.02
-"""thickness of a sheet over the diagonal of its box up to which it is one flat face, slightly bent as it may be"""
+"""greatest thickness of a sheet, over the diagonal of its box, that counts as one flat face"""
 CLOSED = 1e-9
 """volume over the cube of the diagonal up to which a closed surface encloses nothing: a face and its back"""
 LOST = 1e-6
-"""part of the area of faces that their union may lack, or have besides: what files round"""
+"""difference of the area of faces and of their union, relative, that is rounding of files"""
 
 
 ROUNDING = 1e-5

@@ -1,13 +1,13 @@
 """Planar structures: three unknowns a block, two force components a contact point, and a linear program.
 
 A structure is planar if a mirror plane maps every block onto itself and all joints have their normals in that plane.
-Then symmetric motions are motions in the plane, contact points one behind the other move alike, and one of them with
-the strength of all stands for them. Forces go back to the points in proportion to their areas, which keeps each within
-its own limits, and alike to a point and its image, which leaves no moment out of the plane. An interface that comes in
-pieces may have its image in another one: where two blocks meet one in two halves that are glued, say.
+Then symmetric motions are motions in the plane, and contact points one behind the other move alike: one point with the
+strength of all represents them. On the way back these points share the force in proportion to their areas, which keeps
+each force within its limits, and a point and its image share it equally, which leaves no moment out of the plane. The
+image of an interface may be another one, as where two glued blocks meet a third.
 
-The unknown y of a group is such that the squares of its points' forces add up to y²/2: where two points stand one
-behind the other it is their sum. The least forces and equally stiff springs of the program are then those of the model.
+The unknown y of a group is scaled so that the squares of the forces of its points add up to y²/2: for two points it is
+the sum of their forces. Least forces and equally stiff springs of the program are then those of the model.
 """
 
 from __future__ import annotations

@@ -79,9 +79,9 @@ class ProvedSolution:
 
 
 def proved_solution(run: AssociativeRun) -> ProvedSolution:
-    """What is proved of the program with all conditions, of which those are taken in that its forces need.
+    """The proved solution of the program with all conditions, of which only those that its forces exceed are taken in.
 
-    Its velocities are those of that program, its form has what was taken in.
+    Its velocities are those of the program with all conditions; its form has the conditions that were taken in.
     """
     if not run.conditions.are_all:
         take_in_exceeded(run, 1.0)

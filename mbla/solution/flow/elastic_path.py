@@ -33,12 +33,12 @@ BREAKS = 1e-7
 """Reach of a direction with which a path breaks down."""
 
 ENDS = 0.01
-"""Share of the end of the path before it at which it has come there: a step as short as what is left would have larger
-openings than its products allow, and was blocked."""
+"""Distance from the end of the path, relative, at which the path is at its end: a step as short as the rest would have
+larger openings than its products allow."""
 
 AT_BREAK, AIM, NEARLY = 12, 1.003, 0.99
-"""Lengths tried for the step to where a tie breaks; how much beyond it is aimed at, for there the tie has its strength;
-and share of the way to there, or of a length that does not break it over one that does, that is near enough."""
+"""The step to the break of a tie: most lengths that are tried; factor on the length, so that the tie reaches its
+strength; and ratio of a length without break to one with it, or to the estimate, that is near enough."""
 
 
 def follow(joints: ElasticJoints, gravity: Gravity, measure: Measure, settings: PathSettings) -> ElasticPath:

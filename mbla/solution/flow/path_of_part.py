@@ -1,12 +1,12 @@
-"""The path of elastic joints of one part, whatever loads it: of what moves where that is less, again where it is lost.
+"""The path of elastic joints of one part, or of its moving blocks alone; it is followed again where it is lost.
 
-The path is measured by the load factor of associative flow, ``scale``. Two kinds of part have none:
+The unit of the path is the load factor of associative flow, ``scale``. Two kinds of part have none:
 
-* Associative flow locks. The part's own unit of load stands for it, then the load factor that was found, until both are
-  of one size. Where nothing gives way λ is proportional to the displacement; twice so, it is unbounded.
-* A support settles. The gravity step holds it, and its λ there, from which the reaction at rest follows, is where the
-  path begins: the dead load has that reaction then, and λ of the path counts from it. The greatest is the least
-  reaction, and the path does not end because λ falls.
+* Associative flow locks. The unit of load of the part takes its place, then the load factor of that path, until both
+  are of one size. Where no joint yields, λ is proportional to the displacement; if this happens twice, the load factor
+  is unbounded.
+* A support settles. It is fixed in the gravity step, whose reaction is added to the dead load; λ of the path counts
+  from there. The greatest λ is the least reaction, and the path does not end when λ falls.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
-"""The state of a part at the greatest load of its path: forces, motion, and the history that makes one of the other.
+"""The state of a part at the greatest load of its path: forces, motion, and the history that relates them.
 
-Where only what moves was followed, the rest does not move in the step: it has the least forces that carry its loads and
-what is passed on to it, and remembers these.
+Where only the moving part was followed, the other blocks do not move in the step: their forces, and their history, are
+the least that carry their loads and the forces of the moving part.
 """
 
 from __future__ import annotations

@@ -1,8 +1,8 @@
-"""A sparse positive semidefinite matrix with a border: what repairs of forces and of mechanisms solve.
+"""A sparse positive semidefinite matrix with a border: the linear system of repairs of forces and mechanisms.
 
-From ``CHOLESKY_FROM`` unknowns on the matrix is factorised by Cholesky and the border eliminated after it, which is
-refined against the bordered system. Smaller ones, and those where that breaks down, are factorised with their border by
-SuperLU, which takes several times as long for a planar wall of 10,000 blocks, and nothing to speak of for a small one.
+From ``CHOLESKY_FROM`` unknowns on the matrix is factorised by Cholesky, then the border is eliminated, and the solution
+refined against the bordered system. Smaller systems, and those where Cholesky breaks down, are factorised with their
+border by SuperLU, which is slower for large systems alone.
 """
 
 from __future__ import annotations

@@ -1,8 +1,8 @@
-"""What is handed in as proof of the associative load factor: forces and motions of the full model, repaired.
+"""Proof of the associative load factor: repaired forces and motions of the full model.
 
-Where a program was reduced, rounding is left in the full model, and parts at rest carry loads to the tolerance of a
-program. Forces are repaired to balance all loads, motions moved towards compatibility, and of these the one is claimed
-that proves most by the statics of the verification, which repairs nothing and judges what it is given.
+Reductions leave rounding in the full model, and parts at rest carry their loads to the tolerance of a program. So
+forces are repaired to balance all loads, and motions are moved towards compatibility. The forces and the motion with
+the sharpest bounds are claimed; the verification evaluates these bounds with its own statics and repairs nothing.
 """
 
 from __future__ import annotations

@@ -48,7 +48,7 @@ NOT_PROVED_BETWEEN = Message(
 
 
 def tilting_table(assembly: Assembly, load_case: LoadCase) -> AnalysisSequence:
-    """The angle of collapse, verified with what was found of the level table, which proves what lies before it."""
+    """The angle of collapse, verified, with the solution of the level table that proves the angles before it."""
     found = yield from tilt_angles(assembly, load_case)
     return replace(found, checks=verify(assembly, found.load_case, found.solution))
 

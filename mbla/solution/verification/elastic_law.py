@@ -1,15 +1,16 @@
-"""Whether forces are those that elastic joints have after a step, from what they remember and how they move in it.
+"""Misfit of the law of elastic joints: whether the forces after a step follow from history and motion.
 
-A joint that remembers N̄ and T̄ and moves with v, opening positive, has in the step, with k_N and k_T the force that it
-loses for a velocity::
+A joint with the history N̄ and T̄ that moves with v, opening positive, has the following forces; k_N and k_T are the
+force lost for a unit velocity::
 
     T = T̄ − k_T v_T,  shortened to the shear strength μN + c where it is longer
     N = N̄ − k_N v_N + k_N tan ψ ‖T̄ − k_T v_T − T‖/k_T,  within −f_t … f_c
 
-It slides against the force that shortens T, and an open joint has none: friction and unilateral contact are parts of
-the same law. Where interfaces crush or twist v is what their own motion leaves of that of the blocks, and how well that
-motion fits their law counts too. Stiffness is in proportion to area, shared equally by the points of an interface, and
-k_T/k_N is that of the path. Forces, motion and history are those of a result; no code of the step is used.
+A joint slides along the shear that is cut off, and an open joint has no force: friction and unilateral contact are
+parts of the same law. Where interfaces crush or twist, v is the motion of the blocks without that of the interface, and
+the misfit of that motion with its own law counts too. Stiffness is in proportion to area, shared equally by the points
+of an interface, with the ratio k_T/k_N of the path. Forces, motion and history are those of a result; no code of the
+step is used.
 """
 
 from __future__ import annotations

@@ -27,7 +27,7 @@ from mbla.solution.verification.points_on_bodies import distances_from_bodies
 from mbla.solution.verification.statics import left_to_balance
 
 AWAY = 0.05
-"""Distance of a point from its body over the size of that, from which it is not on it: contacts are searched so far."""
+"""Distance of a contact point from its body, over the size of the body, beyond which it is not on the body."""
 
 
 @dataclass(frozen=True)

@@ -1,6 +1,6 @@
-"""Verification of conditions on interfaces, torsion and crushing: as in ``verify_points``, with these.
+"""Verification of a state with conditions on interfaces, torsion and crushing, beside those of ``verify_points``.
 
-A point of an interface moves by what torsion and crushing of the interface leave of the motion of the blocks, and its
+The motion of a contact point is that of the blocks without the motion of the interface in torsion and crushing, and its
 force obeys its own cone. Resultants are summed up from the contact forces, and conditions and dissipation of interfaces
 come from :mod:`mbla.solution.verification.interface_laws`.
 """
@@ -37,8 +37,8 @@ from mbla.solution.verification.strengths import point_strengths
 from mbla.solution.verification.verify_points import checked
 
 ROUNDED_OFF = 1e-9
-"""Excess of an interface over what it carries when it crushes, over its normal force, that is rounding: where all of it
-is crushed the excess grows with the square root of that of the conditions."""
+"""Excess over the strength of a crushing interface, over its normal force, that counts as rounding: where all of the
+interface is crushed, it grows with the square root of the excess of the conditions."""
 
 SHARP = 1e-4
 """Share of the forces on a block that the scale of its residuals is not less than: joints that crush under thousands of

@@ -8,7 +8,8 @@ The measure is the pressure p in all joints (``joint_pressure``), which the shri
 factor is its zero. Its slope by s for fixed forces and mechanism is −f·dv/ds, where v grows linearly with s. As levers
 times normal forces hold loads, p is nearly linear in the factor k = 1/s, and so it is looked for by k: a step of
 Newton's method is one of Dinkelbach's (1967) for the quotient of what levers and loads do, and three or four are mostly
-enough. Two more programs prove it: forces on one side that it stands, a mechanism on the other that it does not.
+enough. Two more programs prove the factor: forces show that the structure stands on one side of it, a mechanism that
+it falls on the other.
 """
 
 from __future__ import annotations
