@@ -5,7 +5,6 @@ plane are clipped against each other (:mod:`~mbla.contacts.narrow_phase`), the c
 contact points (:mod:`~mbla.contacts.outlines.corners`).
 """
 
-import mbla.process.imports  # noqa: F401  the stages from here on need scipy
 from mbla.contacts.contacts import ContactReport, Contacts
 from mbla.contacts.notices import overlap_messages
 from mbla.contacts.search import find_contacts

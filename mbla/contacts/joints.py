@@ -25,7 +25,7 @@ from mbla.deck.sections.contacts import AboutNormal, ContactOverride, ContactsSe
 from mbla.deck.sections.materials import BUILT_IN, GLUED, OPEN
 from mbla.errors import Notice
 from mbla.model.model import Model, PrescribedInterfaces
-from mbla.model.selectors import Roster, bodies_selected
+from mbla.model.selectors import BlockSelection, bodies_selected
 from mbla.model.solids.plane import unit
 
 BED = math.cos(math.radians(45))
@@ -81,12 +81,12 @@ def joints_of_interfaces(
     if prescribed is not None:
         settled = np.array([bool(name) for name in prescribed], dtype=bool)
         rows[settled] = [names.index(name) for name in prescribed if name]
-    roster = Roster(model.blocks)
+    selection = BlockSelection(model.blocks)
     notices = []
     for number, override in enumerate(section.overrides):
         fits = ~settled
         if override.between is not None:
-            first, second = (bodies_selected(each, roster, len(model.grounds))[bodies] for each in override.between)
+            first, second = (bodies_selected(each, selection, len(model.grounds))[bodies] for each in override.between)
             fits &= (first & second[:, ::-1]).any(axis=1)
         if override.orientation is not None:
             fits &= _oriented(overlays.frames[:, 0], override)

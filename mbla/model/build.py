@@ -30,7 +30,7 @@ from mbla.model.loads.load_site import LoadSite
 from mbla.model.model import Ground, Joint, LoadCase, Model, PrescribedInterfaces
 from mbla.model.objective import build_objective
 from mbla.model.outside import outside
-from mbla.model.selectors import Roster, check_overrides, select_blocks
+from mbla.model.selectors import BlockSelection, check_overrides, select_blocks
 from mbla.model.settlement import build_settlement
 from mbla.model.solids.blocks import PointMasses, joined_masses
 from mbla.model.solids.build import BuiltBlocks, build_blocks
@@ -53,9 +53,9 @@ def build_model(deck: Deck) -> Model:
         supports and loads that do nothing
     """
     structure = structure_of(deck)
-    roster, supports, interfaces = structure.roster, structure.supports, structure.interfaces
+    selection, supports, interfaces = structure.selection, structure.supports, structure.interfaces
     site = LoadSite(
-        roster=roster,
+        selection=selection,
         fixed=supports.fixed,
         units=deck.units,
         resolve_file=deck.resolve_file,
@@ -67,22 +67,22 @@ def build_model(deck: Deck) -> Model:
         vehicles=deck.content.vehicles,
         masses=structure.masses,
     )
-    ties = build_ties(deck.content.ties, roster, supports.fixed, deck.contacts.tolerance)
+    ties = build_ties(deck.content.ties, selection, supports.fixed, deck.contacts.tolerance)
     if structure.fill is not None:
-        ties = joined_ties([ties, *fill_struts(structure.fill.bodies.values(), roster, supports.fixed)])
+        ties = joined_ties([ties, *fill_struts(structure.fill.bodies.values(), selection, supports.fixed)])
     sections = deck.content.load_cases.items()
     load_cases = tuple(case for name, section in sections for case in _load_cases(name, section, site, supports, ties))
-    if roster.faults:
-        raise DeckError(roster.faults)
+    if selection.faults:
+        raise DeckError(selection.faults)
     model = Model(
         title=deck.content.title,
         units=deck.units,
-        blocks=roster.blocks,
+        blocks=selection.blocks,
         fixed=supports.fixed,
         grounds=supports.grounds,
         joints=build_joints(deck, supports.grounds, interfaces),
         load_cases=load_cases,
-        notices=(*structure.first_notices, *roster.notices),
+        notices=(*structure.first_notices, *selection.notices),
         guides=supports.guides,
         interfaces=interfaces,
         ties=ties,
@@ -104,9 +104,9 @@ def _load_cases(
         guides = supports.guides
         return [end for each in load_cases for end in build_objective(section, path, each, site, guides, ties)]
     if section.settlement is not None:
-        return [build_settlement(section, path, load_case, supports, site.roster) for load_case in load_cases]
+        return [build_settlement(section, path, load_case, supports, site.selection) for load_case in load_cases]
     for load_case in load_cases:
-        if not site.roster.faults and does_nothing(load_case.live_load, supports):
+        if not site.selection.faults and does_nothing(load_case.live_load, supports):
             where = "" if load_case.travel is None else f" at position {load_case.travel.number}"
             words = f"the supports take every live load{where}, for they act on guided blocks across what these may do"
             site.refuse(Finding("live-load-without-effect", words, *path, "live"))
@@ -115,7 +115,7 @@ def _load_cases(
 
 @dataclass(frozen=True)
 class Structure:
-    """Blocks by name, with the masses that rest on them, and what holds them; faults go to the roster.
+    """Blocks by name, with the masses that rest on them, and what holds them; faults go to the selection.
 
     bent          : faces that were split
     fill          : soil on the blocks, None for none
@@ -123,7 +123,7 @@ class Structure:
     first_notices : before those on joint laws
     """
 
-    roster: Roster
+    selection: BlockSelection
     supports: Supports
     interfaces: PrescribedInterfaces | None
     bent: BentFaces
@@ -144,22 +144,22 @@ def structure_of(deck: Deck) -> Structure:
     else:
         faults += defects_in_words(deck, built.defects, items.items, built.blocks)
     partial = items.partial | {built.blocks.groups[defect.block] for defect in built.defects}
-    roster = Roster(built.blocks, partial, deck.fault_at, faults)
-    supports = build_supports(deck, Supports(items.fixed, items.grounds), items.surfaces, roster)
+    selection = BlockSelection(built.blocks, partial, deck.fault_at, faults)
+    supports = build_supports(deck, Supports(items.fixed, items.grounds), items.surfaces, selection)
     if not deck.content.symmetry:  # else images count among what they choose
-        check_overrides(deck.contacts.overrides, roster)
-    interfaces = read_interfaces(deck, roster, supports.grounds)
-    masses = [point_masses(deck.content.masses, roster, supports.fixed, deck.units)]
+        check_overrides(deck.contacts.overrides, selection)
+    interfaces = read_interfaces(deck, selection, supports.grounds)
+    masses = [point_masses(deck.content.masses, selection, supports.fixed, deck.units)]
     densities = {name: density_of(material, deck.units) for name, material in deck.content.materials.items()}
-    fill = build_fill(deck.content.fill, densities, roster, supports.fixed, deck.units, deck.contacts.tolerance)
+    fill = build_fill(deck.content.fill, densities, selection, supports.fixed, deck.units, deck.contacts.tolerance)
     if fill is not None:
         masses.append(fill.parts)
     carried = joined_masses(masses)
-    roster = replace(roster, blocks=carried.added_to(roster.blocks))
-    sizes = () if faults else unusual_sizes(roster.blocks, supports.fixed, deck.units)
+    selection = replace(selection, blocks=carried.added_to(selection.blocks))
+    sizes = () if faults else unusual_sizes(selection.blocks, supports.fixed, deck.units)
     first = (*items.notices, *built.notices, *([far] if isinstance(far, Notice) else []), *sizes)
     bent = replace(built.bent, items=items.items[built.bent.blocks])
-    return Structure(roster, supports, interfaces, bent, fill, carried, first)
+    return Structure(selection, supports, interfaces, bent, fill, carried, first)
 
 
 def _with_closed_joints(deck: Deck, built: BuiltBlocks, items: CollectedItems, faults: list[Fault]) -> BuiltBlocks:
@@ -170,7 +170,7 @@ def _with_closed_joints(deck: Deck, built: BuiltBlocks, items: CollectedItems, f
     path = ("contacts", "joint_thickness")
     # which ground carries which blocks, with a record of its own: the grown blocks are checked against it after
     supports = build_supports(
-        deck, Supports(items.fixed, items.grounds), (), Roster(built.blocks, items.partial, deck.fault_at)
+        deck, Supports(items.fixed, items.grounds), (), BlockSelection(built.blocks, items.partial, deck.fault_at)
     )
     planes = tuple(ground for ground in supports.grounds if ground.outline is None)  # surfaces are where they are
     closed = close_joints(built.blocks, planes, thickness, deck.contacts.tolerance)
@@ -219,7 +219,7 @@ def build_joint(name: str, law: JointLaw) -> Joint:
     )
 
 
-def point_masses(masses: Sequence[AddedMass], roster: Roster, fixed: BoolArray, units: Units) -> PointMasses:
+def point_masses(masses: Sequence[AddedMass], selection: BlockSelection, fixed: BoolArray, units: Units) -> PointMasses:
     """The masses of the deck, shared in proportion to the volumes of the blocks selected.
 
     Each share is at the centroid of its block; that of a mass on one block is where the deck says. Refuses points
@@ -227,28 +227,28 @@ def point_masses(masses: Sequence[AddedMass], roster: Roster, fixed: BoolArray, 
 
     fixed : (n_blocks,) blocks that do not move
     """
-    blocks = roster.blocks
+    blocks = selection.blocks
     found = []
     for number, added in enumerate(masses):
         path: KeyPath = ("masses", number)
-        chosen = select_blocks(added.on, (*path, "on"), roster)
+        chosen = select_blocks(added.on, (*path, "on"), selection)
         if chosen is None:
             continue
         if added.at is not None and len(chosen) != 1:
             message = f"applies to a mass on one block, {len(chosen)} are selected: give an index, or one mass for each"
-            roster.refuse(Finding("one-block-only", message, *path, "at"))
+            selection.refuse(Finding("one-block-only", message, *path, "at"))
             continue
         shares = added.mass * blocks.volumes[chosen] / (blocks.volumes[chosen].sum() or 1.0)
         points = blocks.centroids[chosen] if added.at is None else np.array([added.at])
         found.append(PointMasses(chosen, shares, points))
         if added.at is not None:
-            off = outside(np.array(added.at), int(chosen[0]), roster.blocks, units)
+            off = outside(np.array(added.at), int(chosen[0]), selection.blocks, units)
             if off is not None:
                 where = f"{vector(added.at)} {units.length} on {blocks.name(int(chosen[0]))}"
                 words = f"the mass of {added.mass:g} {units.mass} at {where} lies {off.words}; it moves with the block"
-                roster.remark(Notice("warning" if off.far else "notice", "mass-outside-block", words))
+                selection.remark(Notice("warning" if off.far else "notice", "mass-outside-block", words))
         if fixed[chosen].all() and not fixed.all():
             where = f"{added.mass:g} {units.mass} on {named(chosen, blocks.name)}"
             words = f"the mass of {where} has no effect: nothing of it moves"
-            roster.remark(Notice("warning", "mass-on-support", words))
+            selection.remark(Notice("warning", "mass-on-support", words))
     return joined_masses(found)

@@ -22,7 +22,7 @@ from mbla.deck.sections.fill import Dispersal, Passive
 from mbla.deck.sections.fill import Fill as FillSection
 from mbla.deck.units import Units
 from mbla.errors import Finding, Notice
-from mbla.model.selectors import Roster, select_blocks
+from mbla.model.selectors import BlockSelection, select_blocks
 from mbla.model.solids.blocks import NO_MASSES, Blocks, PointMasses, joined_masses
 from mbla.model.solids.plane import cut, unit
 from mbla.model.solids.polygons import Polygons, polygons_from_loops, triangles
@@ -118,7 +118,7 @@ class Fill:
 def build_fill(
     sections: Mapping[str, FillSection],
     densities: Mapping[str, float],
-    roster: Roster,
+    selection: BlockSelection,
     fixed: BoolArray,
     units: Units,
     tolerance: float,
@@ -132,24 +132,24 @@ def build_fill(
     """
     if not sections:
         return None
-    blocks = roster.blocks
+    blocks = selection.blocks
     found: dict[str, tuple[FillBody, Columns]] = {}
     for name, section in sections.items():
-        chosen = select_blocks(section.on, ("fill", name, "on"), roster)
+        chosen = select_blocks(section.on, ("fill", name, "on"), selection)
         if chosen is None:
             continue
         weight = densities[section.material] * units.standard_gravity * units.force_per_mass_acceleration
         body = _body(name, section, weight, chosen, blocks, tolerance)
         own = columns(body, blocks)
         if len(own.rows):
-            _refuse_twice(body, own, found, roster)
+            _refuse_twice(body, own, found, selection)
             found[name] = body, own
-        elif not roster.partial:
+        elif not selection.partial:
             message = "lies on nothing: no free upward face of these blocks is below its top; look at on and its top"
-            roster.refuse(Finding("fill-on-nothing", message, "fill", name))
+            selection.refuse(Finding("fill-on-nothing", message, "fill", name))
         if len(own.rows) and fixed[own.blocks].all() and not fixed.all():
             where = named(np.unique(own.blocks), blocks.name)
-            roster.remark(
+            selection.remark(
                 Notice("warning", "mass-on-support", f"the fill {name} on {where} has no effect: nothing of it moves")
             )
     materials = {name: sections[name].material for name in found}
@@ -161,14 +161,16 @@ def build_fill(
     )
 
 
-def _refuse_twice(body: FillBody, own: Columns, others: Mapping[str, tuple[FillBody, Columns]], roster: Roster) -> None:
+def _refuse_twice(
+    body: FillBody, own: Columns, others: Mapping[str, tuple[FillBody, Columns]], selection: BlockSelection
+) -> None:
     """A fault where a face carries another fill already."""
     for name, (other, theirs) in others.items():
         both = np.intersect1d(body.faces[own.rows], other.faces[theirs.rows])
         if len(both):
-            where = named(np.unique(roster.blocks.block_of_face[both]), roster.blocks.name)
+            where = named(np.unique(selection.blocks.block_of_face[both]), selection.blocks.name)
             words = f"lies where {name} does, on {where}: give layers as one fill of their mean density"
-            roster.refuse(Finding("fill-on-fill", words, "fill", body.name))
+            selection.refuse(Finding("fill-on-fill", words, "fill", body.name))
 
 
 def _in_words(section: FillSection, body: FillBody, own: Columns, units: Units, blocks: Blocks) -> str:

@@ -31,7 +31,7 @@ from mbla.arrays import BoolArray, FloatArray, IntArray, starts, summed
 from mbla.deck.sections.fill import Passive
 from mbla.errors import Notice
 from mbla.model.fill import FillBody, columns
-from mbla.model.selectors import Roster
+from mbla.model.selectors import BlockSelection
 from mbla.model.solids.blocks import Blocks
 from mbla.model.ties.ties import COHESION, FILL, OUTSIDE, Ties, joined_ties
 from mbla.model.wording import counted
@@ -40,7 +40,7 @@ LEVEL = 1e-6
 """horizontal component of the unit normal of a face up to which it is level and has nothing to push against"""
 
 
-def fill_struts(bodies: Iterable[FillBody], roster: Roster, fixed: BoolArray) -> list[Ties]:
+def fill_struts(bodies: Iterable[FillBody], selection: BlockSelection, fixed: BoolArray) -> list[Ties]:
     """Struts of the fills that restrain, on each sloping face of a block that can move; a notice of each fill.
 
     fixed : (n_blocks,) blocks that do not move
@@ -49,7 +49,7 @@ def fill_struts(bodies: Iterable[FillBody], roster: Roster, fixed: BoolArray) ->
     for body in bodies:
         if body.passive is None:
             continue
-        struts = _struts(body, body.passive, roster.blocks, fixed)
+        struts = _struts(body, body.passive, selection.blocks, fixed)
         found.append(struts)
         least, most = coefficients(body.passive)
         faces = counted(struts.forms.count(FILL), "face")
@@ -58,7 +58,7 @@ def fill_struts(bodies: Iterable[FillBody], roster: Roster, fixed: BoolArray) ->
             f"vertical stress: how much of the passive pressure is mobilised, {body.passive.mobilisation:g} here, is a "
             "matter of calibration; vary it"
         )
-        roster.remark(Notice("notice", "fill-restrains", words))
+        selection.remark(Notice("notice", "fill-restrains", words))
     return found
 
 

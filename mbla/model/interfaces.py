@@ -19,7 +19,7 @@ from mbla.deck.suggestions import did_you_mean, unknown
 from mbla.deck.text.tree import KeyPath
 from mbla.errors import DeckError, Message
 from mbla.model.model import Ground, PrescribedInterfaces
-from mbla.model.selectors import Roster
+from mbla.model.selectors import BlockSelection
 from mbla.model.solids.blocks import Blocks
 from mbla.model.solids.plane import plane_axes
 from mbla.model.surfaces import lies_on
@@ -49,19 +49,19 @@ class _Bodies:
         return self.tolerance * min(float(self.blocks.sizes[body]) for body in pair if body < len(self.blocks))
 
 
-def read_interfaces(deck: Deck, roster: Roster, grounds: tuple[Ground, ...]) -> PrescribedInterfaces | None:
-    """Interfaces of the deck's table; None where it has none, or where it has faults, which go to the roster."""
+def read_interfaces(deck: Deck, selection: BlockSelection, grounds: tuple[Ground, ...]) -> PrescribedInterfaces | None:
+    """Interfaces of the deck's table; None where it has none, or where it has faults, which go to the selection."""
     path: KeyPath = ("contacts", "table")
-    if deck.contacts.table is None or roster.partial:
+    if deck.contacts.table is None or selection.partial:
         return None
     try:
         table = read_table(deck.resolve_file(path, deck.contacts.table), COLUMNS, OPTIONAL)
-        bodies = _Bodies(roster.blocks, roster.members, grounds, deck.contacts.tolerance)
+        bodies = _Bodies(selection.blocks, selection.members, grounds, deck.contacts.tolerance)
         return _prescribed(table, bodies, (*deck.content.joints, *BUILT_IN))
     except DeckError as error:
-        roster.faults.extend(error.faults)
+        selection.faults.extend(error.faults)
     except TableRefused as refused:
-        roster.faults.extend(deck.fault_at(path, fault) for fault in refused.faults)
+        selection.faults.extend(deck.fault_at(path, fault) for fault in refused.faults)
     return None
 
 

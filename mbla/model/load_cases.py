@@ -78,7 +78,7 @@ def build_load_cases(name: str, section: LoadCaseSection, site: LoadSite) -> tup
     """
     path: KeyPath = ("load_cases", name)
     dead_loads = with_gravity(entries_of(section.dead or [], (*path, "dead"), site.named), path, site.units)
-    before = len(site.roster.faults)
+    before = len(site.selection.faults)
     dead = _add_up(dead_loads, site, live=False)
     live_loads = list(entries_of(section.live or [], (*path, "live"), site.named))
     live = _add_up(live_loads, site, live=True)
@@ -87,12 +87,12 @@ def build_load_cases(name: str, section: LoadCaseSection, site: LoadSite) -> tup
         if isinstance(kind := LOAD_KEYS[entry.kind], CaseKind):  # a rule of the deck: at most one is
             variants = kind.variants(name, entry, dead_loads, dead.net, site)
     _judge_soil(name, gravity_of(dead_loads), any(each.tilt is not None for each in variants), site)
-    sound = len(site.roster.faults) == before
+    sound = len(site.selection.faults) == before
     cases = []
     for variant in variants:
         position = variant.travel
         own = live if variant.load is None else live.plus(variant.load)
-        if len(site.roster.faults) == before and own.complete and section.live is not None:
+        if len(site.selection.faults) == before and own.complete and section.live is not None:
             _judge_live(variant.load, path, own, site)
         asked = None if section.pushover is None else section.pushover.position
         here = asked is None or position is None or position.number == asked
@@ -148,7 +148,7 @@ def _pushing(name: str, section: LoadCaseSection, dead: _Sum, live: _Sum, site: 
     _judge_step(asked.step, ("load_cases", name, "pushover", "step"), site)
     if asked.control.on is not None:
         path: KeyPath = ("load_cases", name, "pushover", "control", "on")
-        blocks = select_blocks(asked.control.on, path, site.roster)
+        blocks = select_blocks(asked.control.on, path, site.selection)
     given_direction = asked.control.direction
     direction = np.full(3, np.nan) if given_direction is None else unit(np.array(given_direction))
     until = np.inf if asked.until is None else asked.until
@@ -160,7 +160,7 @@ def _judge_step(step: float, path: KeyPath, site: LoadSite) -> None:
     """A step is longer than what elastic joints give."""
     sizes = site.blocks.sizes[~site.fixed]
     least = GIVES * float(sizes.mean()) if len(sizes) else 0.0
-    if step <= least and not site.roster.partial:
+    if step <= least and not site.selection.partial:
         of = "a millionth of the size of blocks, by which joints give"
         words = f"must be > {least:.2g} {site.units.length}, {of}"
         if path[-1] != "step":
@@ -180,7 +180,7 @@ def _place_of_step(name: str, section: LoadCaseSection) -> KeyPath:
 def _judge_live(travelling: AppliedLoad | None, path: KeyPath, live: _Sum, site: LoadSite) -> None:
     """Live loads must leave something on blocks that move, and be numbers to compute with."""
     free = ~site.fixed
-    if not free.any() or site.roster.partial or _judge_size((*path, "live"), live, site):
+    if not free.any() or site.selection.partial or _judge_size((*path, "live"), live, site):
         return
     if np.abs(live.net[free]).max() > CANCELLED * live.gross[free, :6].max():
         return
@@ -194,7 +194,7 @@ def _judge_size(path: KeyPath, loads: _Sum, site: LoadSite) -> bool:
     """Whether loads on blocks that move are so small or so large that their squares leave the range of numbers."""
     largest = float(loads.gross[~site.fixed, :6].max(initial=0.0))
     least, most = COMPUTABLE
-    if site.roster.partial or largest == 0.0 or least <= largest <= most:
+    if site.selection.partial or largest == 0.0 or least <= largest <= most:
         return False
     size = f"{largest:.1e}" if np.isfinite(largest) else f"more than {np.finfo(np.float64).max:.1e}"
     words = f"the loads reach {size} {site.units.force}: {least:.0e} to {most:.0e} can be computed with"
@@ -212,7 +212,7 @@ def _apply(entry: Entry, site: LoadSite, live: bool) -> AppliedLoad | None:
     """One load on its blocks; None where a fault was left, or where blocks it depends on could not be built."""
     on, blocks = entry.load.on, None
     if on is not None:
-        blocks = select_blocks(on, (*entry.path, "on"), site.roster)
+        blocks = select_blocks(on, (*entry.path, "on"), site.selection)
         if blocks is None:
             return None
     applied = load_kind(entry).build(entry, blocks, site)

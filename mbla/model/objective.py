@@ -61,7 +61,7 @@ def build_objective(
     if not np.isfinite(weight):
         return []  # refused as loads beyond computing
     if not weight > 0.0:
-        if free.any() and not site.roster.partial:
+        if free.any() and not site.selection.partial:
             words = "no load acts on blocks that can move, or all of them cancel: no force is determined"
             site.refuse(Finding("objective-without-effect", words, *path))
         return []
@@ -105,7 +105,7 @@ def _sought(section: ObjectiveSection, path: KeyPath, site: LoadSite, guides: Gu
     if section.index is not None:
         own = own[section.index : section.index + 1]
     if not own:
-        if not site.roster.partial and not site.roster.faults:
+        if not site.selection.partial and not site.selection.faults:
             known = listed(list(dict.fromkeys(ties.names)), "and") if len(ties) else "none"
             words = f"there is no such tie; there are {known}"
             site.refuse(Finding("unknown-name", words, *path, "tie" if section.index is None else "index"))
@@ -126,7 +126,7 @@ def _sides(
     for key, selector in (("from", asked.from_), ("on", asked.on)):
         if selector is None:
             continue
-        members = select_blocks(selector, (*path, key), site.roster)
+        members = select_blocks(selector, (*path, key), site.selection)
         if members is None:
             return None
         chosen[key] = np.isin(np.arange(n_blocks), members)

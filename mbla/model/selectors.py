@@ -27,7 +27,7 @@ def unplaced(path: KeyPath, message: Message) -> Fault:
 
 
 @dataclass(frozen=True)
-class Roster:
+class BlockSelection:
     """The blocks that selectors choose from, and what is found wrong with a deck that chooses.
 
     partial : groups of which an item could not be built; what a selector finds in them is not the deck's fault
@@ -61,30 +61,30 @@ class Roster:
             self.notices.append(notice)
 
 
-def select_blocks(selector: Selector, path: KeyPath, roster: Roster) -> IntArray | None:
+def select_blocks(selector: Selector, path: KeyPath, selection: BlockSelection) -> IntArray | None:
     """Blocks that a selector means, ascending, each once, (n,).
 
-    None where that cannot be said: a fault was added to the roster, or items it depends on could not be built.
+    None where that cannot be said: a fault was added to the selection, or items it depends on could not be built.
     """
     if isinstance(selector, list):
-        each = [_select(term, (*path, number), roster) for number, term in enumerate(selector)]
+        each = [_select(term, (*path, number), selection) for number, term in enumerate(selector)]
     else:
-        each = [_select(selector, path, roster)]
+        each = [_select(selector, path, selection)]
     found = [blocks for blocks in each if blocks is not None]
     return np.unique(np.concatenate(found)).astype(np.int64) if len(found) == len(each) else None
 
 
-def _select(term: str | SelectorTerm, path: KeyPath, roster: Roster) -> IntArray | None:
+def _select(term: str | SelectorTerm, path: KeyPath, selection: BlockSelection) -> IntArray | None:
     if isinstance(term, str):
-        return None if term in roster.partial else roster.members[term]
+        return None if term in selection.partial else selection.members[term]
     # any block that could not be built might lie in a box
-    if roster.partial and (term.group is None or term.group in roster.partial):
+    if selection.partial and (term.group is None or term.group in selection.partial):
         return None
-    blocks = roster.members[term.group] if term.group is not None else np.arange(len(roster.blocks))
+    blocks = selection.members[term.group] if term.group is not None else np.arange(len(selection.blocks))
     for narrow in (_with_index, _of_member, _at_positions, _in_box):
-        narrowed = narrow(term, blocks, roster.blocks)
+        narrowed = narrow(term, blocks, selection.blocks)
         if isinstance(narrowed, Finding):
-            roster.refuse(narrowed.below(*path))
+            selection.refuse(narrowed.below(*path))
             return None
         blocks = narrowed
     return blocks
@@ -162,20 +162,20 @@ def _in_box(term: SelectorTerm, rows: IntArray, blocks: Blocks) -> IntArray | Fi
     return Finding("empty-selector", words, "box")
 
 
-def check_overrides(overrides: Sequence[ContactOverride], roster: Roster) -> None:
+def check_overrides(overrides: Sequence[ContactOverride], selection: BlockSelection) -> None:
     """Refuse the selectors of overrides that mean no block."""
     for number, override in enumerate(overrides):
         for side, selector in enumerate(override.between or ()):
             for below, term in _blocks_in(selector):
-                select_blocks(term, ("contacts", "overrides", number, "between", side, *below), roster)
+                select_blocks(term, ("contacts", "overrides", number, "between", side, *below), selection)
 
 
-def bodies_selected(selector: Selector, roster: Roster, n_grounds: int) -> BoolArray:
+def bodies_selected(selector: Selector, selection: BlockSelection, n_grounds: int) -> BoolArray:
     """Bodies that a side of an override means, (n_blocks + n_grounds,)."""
-    n_blocks = len(roster.blocks)
+    n_blocks = len(selection.blocks)
     chosen = np.zeros(n_blocks + n_grounds, dtype=bool)
     for below, term in _blocks_in(selector):
-        blocks = select_blocks(term, below, roster)
+        blocks = select_blocks(term, below, selection)
         assert blocks is not None  # ``check_overrides`` found blocks for every one
         chosen[blocks] = True
     terms = selector if isinstance(selector, list) else [selector]

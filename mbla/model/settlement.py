@@ -29,7 +29,7 @@ from mbla.errors import Finding
 from mbla.model.applied_load import AppliedLoad, without_levers
 from mbla.model.guides import slide, turn
 from mbla.model.model import LoadCase
-from mbla.model.selectors import Roster, select_blocks
+from mbla.model.selectors import BlockSelection, select_blocks
 from mbla.model.solids.blocks import Blocks
 from mbla.model.solids.plane import unit
 from mbla.model.supports import Supports
@@ -42,33 +42,33 @@ def build_settlement(
     path: KeyPath,
     load_case: LoadCase,
     supports: Supports,
-    roster: Roster,
+    selection: BlockSelection,
 ) -> LoadCase:
     """The load case with its settlement; the reference reaction is not known before there are contacts.
 
     Refuses blocks that `supports` does not fix or that give way twice, and settlements under no dead load or of
     everything fixed.
     """
-    giving = _giving_way(section, path, supports, roster)
+    giving = _giving_way(section, path, supports, selection)
     if giving is None:
         return load_case
     free = ~supports.fixed
-    size = size_of_loads(load_case.dead_load, roster.blocks, free)
+    size = size_of_loads(load_case.dead_load, selection.blocks, free)
     if not np.isfinite(size):
         return load_case  # refused as loads beyond computing
     if not size > 0.0:
-        if free.any() and not roster.partial:
+        if free.any() and not selection.partial:
             message = "there is no dead load on blocks that can move, or all of it cancels: no reaction is lost"
-            roster.refuse(Finding("settlement-without-effect", message, *path, "settlement"))
+            selection.refuse(Finding("settlement-without-effect", message, *path, "settlement"))
         return load_case
-    parts = [_motion(support, chosen, roster.blocks) for support, chosen in giving]
+    parts = [_motion(support, chosen, selection.blocks) for support, chosen in giving]
     shares = _shares([support for support, _ in giving])
     blocks = np.concatenate([chosen for _, chosen in giving])
     order = np.argsort(blocks)
     motions = np.vstack([share * motions for share, (motions, _) in zip(shares, parts, strict=True)])[order]
     farthest, chosen = giving[int(np.argmax(shares))]
     if farthest.turn is not None:
-        size *= _distance_from(farthest, roster.blocks.centroids[free])
+        size *= _distance_from(farthest, selection.blocks.centroids[free])
     words = _words(giving, [each for _, each in parts])
     settlement = Settlement(blocks[order], motions, farthest.turn is not None, words, np.nan, size)
     pushover = load_case.pushover
@@ -80,7 +80,7 @@ def build_settlement(
 
 
 def _giving_way(
-    section: LoadCaseSection, path: KeyPath, supports: Supports, roster: Roster
+    section: LoadCaseSection, path: KeyPath, supports: Supports, selection: BlockSelection
 ) -> list[tuple[SettlementSection, IntArray]] | None:
     """Supports with their blocks; None where a fault was left."""
     found: list[tuple[SettlementSection, IntArray]] = []
@@ -88,22 +88,22 @@ def _giving_way(
     owner = dict[int, int]()
     for number, support in enumerate(supports_of(section)):
         place: KeyPath = (*settles, number, "on") if isinstance(section.settlement, list) else (*settles, "on")
-        chosen = select_blocks(support.on, place, roster)
+        chosen = select_blocks(support.on, place, selection)
         if chosen is None:
             return None
         loose = chosen[~supports.fixed[chosen]]
         if len(loose):
             message = (
-                f"not fixed: {named(loose, roster.blocks.name)}; a support that gives way is made of blocks that "
+                f"not fixed: {named(loose, selection.blocks.name)}; a support that gives way is made of blocks that "
                 "`supports` fixes; in place of a ground plane give a block and fix it"
             )
-            roster.refuse(Finding("settlement-not-fixed", message, *place))
+            selection.refuse(Finding("settlement-not-fixed", message, *place))
             return None
         twice = np.array([block for block in chosen if int(block) in owner], dtype=np.int64)
         if len(twice):
-            names = named(twice, roster.blocks.name)
+            names = named(twice, selection.blocks.name)
             message = f"{names}: settlement[{owner[int(twice[0])]}] moves that already; a support gives way in one way"
-            roster.refuse(Finding("settlement-twice", message, *place))
+            selection.refuse(Finding("settlement-twice", message, *place))
             return None
         owner |= {int(block): number for block in chosen}
         found.append((support, chosen))

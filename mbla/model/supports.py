@@ -20,7 +20,7 @@ from mbla.model.blocks.generated import ItemRefused
 from mbla.model.geometry.sheets import sheets
 from mbla.model.guides import NO_GUIDES, Guides, guides_of, is_guide, joined
 from mbla.model.model import Ground
-from mbla.model.selectors import Roster, select_blocks
+from mbla.model.selectors import BlockSelection, select_blocks
 from mbla.model.solids.blocks import Blocks
 from mbla.model.solids.plane import unit
 from mbla.model.solids.ragged import row_maxima
@@ -54,7 +54,7 @@ def build_supports(
     deck: Deck,
     brought_along: Supports,
     surfaces: Sequence[tuple[KeyPath, str, Sequence[Surface]]],
-    roster: Roster,
+    selection: BlockSelection,
 ) -> Supports:
     """Supports of the deck, with those that items bring along.
 
@@ -68,18 +68,18 @@ def build_supports(
     grounds: list[tuple[KeyPath, Ground]] = []
     guides: list[tuple[KeyPath, Guides]] = []
     sheets: list[tuple[KeyPath, str, Sequence[Surface], IntArray | None]] = [(*each, None) for each in surfaces]
-    complete = not roster.partial
+    complete = not selection.partial
     for number, support in enumerate(deck.content.supports):
         path: KeyPath = ("supports", number)
         chosen = None
         if support.blocks is not None:
-            chosen = select_blocks(support.blocks, (*path, "blocks"), roster)
+            chosen = select_blocks(support.blocks, (*path, "blocks"), selection)
             if chosen is None:
                 complete = False
                 continue
         joint = support.joint or deck.contacts.joint
         if support.surface is not None:
-            found = _surfaces_of(support.surface, (*path, "surface"), deck, roster)
+            found = _surfaces_of(support.surface, (*path, "surface"), deck, selection)
             complete &= bool(found)
             sheets.append(((*path, "surface"), joint, found, chosen))
         elif support.ground is not None:
@@ -87,39 +87,39 @@ def build_supports(
             label = f"ground {place or f'at {vector(point)} with normal {vector(normal)}'}"
             grounds.append(((*path, "ground"), Ground(point, normal, joint, chosen, label)))
         elif chosen is not None and is_guide(support):
-            guides.append((path, guides_of(support, chosen, roster.blocks)))
+            guides.append((path, guides_of(support, chosen, selection.blocks)))
         else:
             fixed[chosen] = True
-    everything_guided = _joined_guides(guides, fixed, roster)
+    everything_guided = _joined_guides(guides, fixed, selection)
     for path, ground in grounds:
-        check_ground(ground, path, fixed, roster, deck.contacts)
+        check_ground(ground, path, fixed, selection, deck.contacts)
     flat = []
     for path, joint, own, chosen in sheets:
-        carried = Carried(roster.blocks, allowed_blocks(roster, fixed, chosen), deck.contacts)
-        flat += grounds_of_surfaces(own, path, joint, chosen, carried, roster)
+        carried = Carried(selection.blocks, allowed_blocks(selection, fixed, chosen), deck.contacts)
+        flat += grounds_of_surfaces(own, path, joint, chosen, carried, selection)
     supports = Supports(fixed, (*brought_along.grounds, *(ground for _, ground in grounds), *flat), everything_guided)
     if complete and (flat or not sheets):
-        _check_hold(supports, roster)
+        _check_hold(supports, selection)
     return supports
 
 
-def _check_hold(supports: Supports, roster: Roster) -> None:
+def _check_hold(supports: Supports, selection: BlockSelection) -> None:
     """Something holds the structure, and something can move."""
     if not supports.fixed.any() and not supports.grounds and not len(supports.guides):
-        roster.refuse(Finding("no-support", "nothing holds the structure: give ground or fixed blocks", "supports"))
+        selection.refuse(Finding("no-support", "nothing holds the structure: give ground or fixed blocks", "supports"))
     if supports.fixed.all():
-        roster.refuse(Finding("nothing-can-move", "every block is fixed: nothing can move", "supports"))
+        selection.refuse(Finding("nothing-can-move", "every block is fixed: nothing can move", "supports"))
 
 
-def _joined_guides(guides: Sequence[tuple[KeyPath, Guides]], fixed: BoolArray, roster: Roster) -> Guides:
+def _joined_guides(guides: Sequence[tuple[KeyPath, Guides]], fixed: BoolArray, selection: BlockSelection) -> Guides:
     """All guides; a block that is fixed as well, or guided twice, is a fault of the later item."""
     result, held = NO_GUIDES, np.zeros_like(fixed)
     for path, own in guides:
         for other, words in ((fixed, "fixed by another item of supports"), (held, "guided by an earlier item")):
             twice: IntArray = own.blocks[other[own.blocks]]
             if len(twice):
-                message = f"{words}: {named(twice, roster.blocks.name)}; say how a block is held in one item"
-                roster.refuse(Finding("support-held-twice", message, *path, "blocks"))
+                message = f"{words}: {named(twice, selection.blocks.name)}; say how a block is held in one item"
+                selection.refuse(Finding("support-held-twice", message, *path, "blocks"))
         held[own.blocks] = True
         result = joined(result, own)
     return result
@@ -153,14 +153,16 @@ def plane_of(section: Plane) -> tuple[FloatArray, FloatArray, str]:
     return np.array(section.point), unit(section.normal), ""
 
 
-def check_ground(ground: Ground, path: KeyPath, fixed: BoolArray, roster: Roster, contacts: ContactsSection) -> None:
+def check_ground(
+    ground: Ground, path: KeyPath, fixed: BoolArray, selection: BlockSelection, contacts: ContactsSection
+) -> None:
     """Blocks it may carry must not reach below it, and one of their faces must lie on it.
 
     fixed    : (n_blocks,) blocks that cannot move
     contacts : with the tolerances
     """
-    blocks = roster.blocks
-    may_carry = allowed_blocks(roster, fixed, ground.blocks)
+    blocks = selection.blocks
+    may_carry = allowed_blocks(selection, fixed, ground.blocks)
     heights = (blocks.vertices - ground.point) @ ground.normal
     depths = row_maxima(-heights, blocks.vertex_start)
     sunk = np.flatnonzero(may_carry & (depths > contacts.depth_allowed * blocks.sizes))
@@ -169,12 +171,12 @@ def check_ground(ground: Ground, path: KeyPath, fixed: BoolArray, roster: Roster
             f"blocks reach below it, by up to {depths[sunk].max():.4g}: {named(sunk, blocks.name)}; move the plane, or "
             "list the blocks that stand on it under the key blocks"
         )
-        roster.refuse(Finding("ground-misplaced", words, *path))
-    elif not _faces_on(ground, heights, may_carry, blocks, contacts) and not roster.partial:
+        selection.refuse(Finding("ground-misplaced", words, *path))
+    elif not _faces_on(ground, heights, may_carry, blocks, contacts) and not selection.partial:
         lowest = -depths[may_carry].max() if may_carry.any() else np.nan
         touching = touching_only(ground.point, ground.normal, Carried(blocks, may_carry, contacts))
         nearest = touching or (f"; the nearest block begins {lowest:.4g} above it" if lowest > 0 else "")
-        roster.refuse(Finding("ground-misplaced", f"no face of a block that can move lies on it{nearest}", *path))
+        selection.refuse(Finding("ground-misplaced", f"no face of a block that can move lies on it{nearest}", *path))
 
 
 def _faces_on(
@@ -188,14 +190,14 @@ def _faces_on(
     return bool((facing & near & may_carry[blocks.block_of_face]).any())
 
 
-def _surfaces_of(section: SurfaceSection, path: KeyPath, deck: Deck, roster: Roster) -> tuple[Surface, ...]:
-    """The surfaces that an item of `supports` describes; faults go to the roster, and then there is none."""
+def _surfaces_of(section: SurfaceSection, path: KeyPath, deck: Deck, selection: BlockSelection) -> tuple[Surface, ...]:
+    """The surfaces that an item of `supports` describes; faults go to the selection, and then there is none."""
     tolerance = deck.contacts.tolerance
     if section.polygon is not None:
         found = surface_of_polygon(section.polygon, (*path, "polygon"), tolerance)
         if isinstance(found, Surface):
             return (found,)
-        roster.refuse(found)
+        selection.refuse(found)
         return ()
     assert section.file is not None  # a rule of the deck: one of polygon and file
     item = GeometryFile.model_construct(
@@ -220,7 +222,7 @@ def _surfaces_of(section: SurfaceSection, path: KeyPath, deck: Deck, roster: Ros
         return surfaces_of_sheets(geometry, "file", tolerance)
     except ItemRefused as refused:
         for below, message in refused.findings:
-            roster.refuse(Finding(message.identifier, message.words, *path, *below))
+            selection.refuse(Finding(message.identifier, message.words, *path, *below))
     except DeckError as error:
-        roster.faults.extend(fault for fault in error.faults if fault not in roster.faults)
+        selection.faults.extend(fault for fault in error.faults if fault not in selection.faults)
     return ()

@@ -13,7 +13,7 @@ from mbla.deck.text.tree import KeyPath
 from mbla.errors import Finding
 from mbla.model.geometry.sheets import fitted_plane, flattened
 from mbla.model.model import Ground
-from mbla.model.selectors import Roster
+from mbla.model.selectors import BlockSelection
 from mbla.model.solids.blocks import Blocks
 from mbla.model.solids.plane import plane_axes
 from mbla.model.solids.polygons import polygons_from_loops, widths
@@ -100,7 +100,7 @@ def grounds_of_surfaces(
     joint: str,
     chosen: IntArray | None,
     carried: Carried,
-    roster: Roster,
+    selection: BlockSelection,
 ) -> list[Ground]:
     """Surfaces as ground, once for each side on which faces lie; those of a sheet without any go.
 
@@ -117,11 +117,11 @@ def grounds_of_surfaces(
             outline = surface.outline if side > 0 else surface.outline[::-1].copy()
             label = f"{surface.label} from its other side" if number else surface.label
             grounds.append(Ground(outline.mean(axis=0), side * surface.normal, joint, chosen, label, outline))
-    if not roster.partial:
+    if not selection.partial:
         for label in (label for label, touches in touched.items() if not touches):
             own = [surface for surface in surfaces if surface.label == label]
             words = f"no face of a block that can move lies on {label}{how_it_misses(own, carried)}"
-            roster.refuse(Finding("ground-misplaced", words, *path))
+            selection.refuse(Finding("ground-misplaced", words, *path))
     return grounds
 
 
@@ -160,13 +160,13 @@ def lies_on(points: FloatArray, ground: Ground, reach: FloatArray | float) -> Bo
     return found
 
 
-def allowed_blocks(roster: Roster, fixed: BoolArray, chosen: IntArray | None) -> BoolArray:
+def allowed_blocks(selection: BlockSelection, fixed: BoolArray, chosen: IntArray | None) -> BoolArray:
     """Blocks that a ground may carry, (n_blocks,): what cannot be built need not lie right, either.
 
     fixed  : (n_blocks,) blocks that cannot move
     chosen : those that it is for, None for all
     """
-    allowed = ~fixed & ~np.isin(np.array(roster.blocks.groups), list(roster.partial))
+    allowed = ~fixed & ~np.isin(np.array(selection.blocks.groups), list(selection.partial))
     if chosen is not None:
         allowed &= np.isin(np.arange(len(fixed)), chosen)
     return np.asarray(allowed)

@@ -27,7 +27,7 @@ from mbla.model.loads.entry import entries_of
 from mbla.model.loads.gravity import with_gravity
 from mbla.model.loads.load_kind import load_kind
 from mbla.model.model import Ground, LoadCase, Model, Pushing
-from mbla.model.selectors import Roster, check_overrides, select_blocks
+from mbla.model.selectors import BlockSelection, check_overrides, select_blocks
 from mbla.model.settlement import with_reference
 from mbla.model.solids.blocks import BlockLabels, Blocks, carried_masses, join_labels
 from mbla.model.solids.build import Labels, build_blocks, indices_in_groups
@@ -63,10 +63,10 @@ def with_images(deck: Deck, model: Model) -> Model:
         _refuse(deck, _cannot_mirror(deck, model, mirror, path))
         model = _mirrored(model, mirror, deck.contacts.tolerance)
     if deck.content.symmetry:
-        roster = Roster(model.blocks, fault_at=deck.fault_at)
-        check_overrides(deck.contacts.overrides, roster)
-        if roster.faults:
-            raise DeckError(roster.faults)
+        selection = BlockSelection(model.blocks, fault_at=deck.fault_at)
+        check_overrides(deck.contacts.overrides, selection)
+        if selection.faults:
+            raise DeckError(selection.faults)
     return model
 
 
@@ -361,10 +361,10 @@ def find_mirror(deck: Deck, model: Model, plane: SymmetryPlane, path: KeyPath) -
         _refuse(deck, [Finding("symmetry-broken", message, *path)])
     halves = np.zeros(len(blocks), dtype=bool)
     if plane.halves is not None:
-        roster = Roster(blocks, fault_at=deck.fault_at)
-        chosen = select_blocks(plane.halves, (*path, "halves"), roster)
+        selection = BlockSelection(blocks, fault_at=deck.fault_at)
+        chosen = select_blocks(plane.halves, (*path, "halves"), selection)
         if chosen is None:
-            raise DeckError(roster.faults)
+            raise DeckError(selection.faults)
         on_plane = row_maxima(np.abs(heights[blocks.loops]), blocks.loop_start) <= allowed[blocks.block_of_face]
         cut = np.bincount(blocks.block_of_face[on_plane], minlength=len(blocks)) > 0
         loose = chosen[~cut[chosen]]

@@ -1,4 +1,4 @@
-"""Libraries that take long to import, without what of them nothing here needs: done where this module is imported."""
+"""Libraries that take long to import, without what of them nothing here needs."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from importlib import import_module
 import numpy as np
 
 
-def _import_scipy() -> None:
+def import_scipy() -> None:
     """Scipy takes over all names of numpy, with what loads a compiler and a test suite: a tenth of a run's imports."""
     unneeded = [name for name in ("f2py", "testing", "polynomial") if name not in vars(np)]
     vars(np).update(dict.fromkeys(unneeded))
@@ -17,6 +17,3 @@ def _import_scipy() -> None:
         for name in unneeded:
             if vars(np).get(name) is None:
                 del vars(np)[name]
-
-
-_import_scipy()

@@ -9,7 +9,7 @@ from pydantic import TypeAdapter
 from mbla.deck.sections.selectors import Selector
 from mbla.deck.text.tree import KeyPath
 from mbla.errors import Fault, Message, Place
-from mbla.model.selectors import Roster, select_blocks
+from mbla.model.selectors import BlockSelection, select_blocks
 from mbla.model.solids.blocks import BlockLabels, join_labels, labels_of
 from mbla.model.solids.build import Labels, build_blocks
 from mbla.model.solids.polyhedra import cuboids
@@ -19,13 +19,13 @@ def fault_at(path: KeyPath, message: Message) -> Fault:
     return Fault(Place("deck", 1, 1), ".".join(map(str, path)), message)
 
 
-def roster(partial: frozenset[str] = frozenset()) -> Roster:
+def selection(partial: frozenset[str] = frozenset()) -> BlockSelection:
     """Ten unit cubes along x; even ones are group a, odd ones b; the a are two copies of courses 0, 0, 1 and 0, 0."""
     least = np.array([[2.0 * i, 0, 0] for i in range(10)])
     labels = Labels(
         ("a", "b") * 5, np.repeat(np.arange(5), 2), np.ones(10), join_labels([_within(cube) for cube in range(10)])
     )
-    return Roster(build_blocks(cuboids(least, least + 1), labels, 1e-3).blocks, partial, fault_at)
+    return BlockSelection(build_blocks(cuboids(least, least + 1), labels, 1e-3).blocks, partial, fault_at)
 
 
 def _within(cube: int) -> BlockLabels:
@@ -36,7 +36,7 @@ def _within(cube: int) -> BlockLabels:
 
 
 def select(selector: Any, partial: frozenset[str] = frozenset()) -> tuple[Any, list[Fault]]:
-    site = roster(partial)
+    site = selection(partial)
     blocks = select_blocks(TypeAdapter(Selector).validate_python(selector), ("on",), site)
     return None if blocks is None else blocks.tolist(), site.faults
 

@@ -167,7 +167,7 @@ class Landing:
                 f"{words}: {100 * share:.3g} % of it goes through the fill {self.through.name} beyond the ends of the "
                 "blocks under it, and does not act on the structure: the ground there carries it"
             )
-            self.site.roster.remark(Notice("notice", "load-beyond-fill", message))
+            self.site.selection.remark(Notice("notice", "load-beyond-fill", message))
 
     def remark_met(self, words: str, forces: FloatArray, landed: Sequence[Spread]) -> None:
         """What of a load, forces (n, 3), meets blocks where they carry no fill: which, and what becomes of it.
@@ -189,7 +189,7 @@ class Landing:
                 self.site.warn("load-off-fill", f"{message}{which}{after}: add them to its on if they carry it")
             else:
                 which = f"faces without fill of {named(others, blocks.name)}, as upright ones are"
-                self.site.roster.remark(Notice("notice", "load-towards-wall", f"{message}{which}{after}"))
+                self.site.selection.remark(Notice("notice", "load-towards-wall", f"{message}{which}{after}"))
         lost = [0.0 if len(each.blocks) else each.met for each in landed]
         if share_of(forces, lost) > 0.0:
             others = np.unique(np.concatenate([each.others for each in landed if not len(each.blocks)]))

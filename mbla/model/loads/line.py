@@ -88,7 +88,7 @@ def _landed(landing: Landing, line: LineLoad, begin: FloatArray, end: FloatArray
     if landing.through is None:
         ends, carriers = landing.parts_of_line(begin, end)
         bare = np.asarray((carriers < 0).all(axis=0))
-        if bare.any() and not site.roster.partial:  # what could not be built may well lie there
+        if bare.any() and not site.selection.partial:  # what could not be built may well lie there
             _refuse_bare(line, ends, bare, landing.path, site)
         return None if bare.any() else landing.of_line(begin, end)
     across = end - begin

@@ -15,7 +15,8 @@ from mbla.deck.quantities import Vector
 from mbla.model.applied_load import AppliedLoad
 from mbla.model.loads.entry import Entry
 from mbla.model.loads.load_site import LoadSite
-from mbla.model.model import Tilt, TravelPosition
+from mbla.questions.tilt import Tilt
+from mbla.questions.travel import TravelPosition
 
 Build: TypeAlias = Callable[[Entry, IntArray | None, LoadSite], AppliedLoad | None]
 """The load on blocks, from its entry, the blocks that its ``on`` selects, None where it has none, and the site. None

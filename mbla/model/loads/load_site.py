@@ -14,7 +14,7 @@ from mbla.deck.units import Units
 from mbla.errors import Finding, Notice
 from mbla.model.fill import FillBody
 from mbla.model.model import Ground
-from mbla.model.selectors import Roster
+from mbla.model.selectors import BlockSelection
 from mbla.model.solids.blocks import NO_MASSES, Blocks, PointMasses
 
 
@@ -32,7 +32,7 @@ class LoadSite:
     masses  : that blocks carry, each by itself
     """
 
-    roster: Roster
+    selection: BlockSelection
     fixed: BoolArray
     units: Units
     resolve_file: Callable[[KeyPath, str], Path]
@@ -47,12 +47,12 @@ class LoadSite:
     @property
     def blocks(self) -> Blocks:
         """All blocks of the model."""
-        return self.roster.blocks
+        return self.selection.blocks
 
     def refuse(self, finding: Finding) -> None:
         """Add a fault, once."""
-        self.roster.refuse(finding)
+        self.selection.refuse(finding)
 
     def warn(self, identifier: str, message: str) -> None:
         """Add a warning, once."""
-        self.roster.remark(Notice("warning", identifier, message))
+        self.selection.remark(Notice("warning", identifier, message))

@@ -182,7 +182,7 @@ def _in_words(pressure: PressureLoad, area: float, count: int, site: LoadSite) -
 
 def _refuse(words: str, path: KeyPath, site: LoadSite) -> None:
     """A fault where nothing is loaded, and every block could be built."""
-    if not site.roster.partial:
+    if not site.selection.partial:
         site.refuse(Finding("load-beside-structure", words, *path))
 
 

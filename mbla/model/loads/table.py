@@ -35,7 +35,7 @@ def table_load(entry: Entry, blocks: IntArray | None, site: LoadSite) -> Applied
         rows = _blocks(table, site)
         table.check()
     except DeckError as error:
-        site.roster.faults.extend(error.faults)
+        site.selection.faults.extend(error.faults)
         return None
     except TableRefused as refused:
         for finding in refused.findings(*here):
@@ -67,14 +67,14 @@ def _numbers(table: Table) -> tuple[FloatArray, FloatArray | None, FloatArray]:
 def _blocks(table: Table, site: LoadSite) -> IntArray | None:
     """Block of each row, (n,); None where a group could not be built."""
     found: list[int | None] = []
-    groups = site.roster.members
+    groups = site.selection.members
     for row, group in enumerate(table.columns["group"]):
         if group in groups:
             otherwise = f"{group} has blocks 0 to {len(groups[group]) - 1}"
             found.append(table.place_in("index", row, groups[group], otherwise))
-        elif group not in site.roster.partial:
+        elif group not in site.selection.partial:
             table.refuse(row, f"unknown group {group}{did_you_mean(group, groups)}")
-    if site.roster.partial.intersection(table.columns["group"]):
+    if site.selection.partial.intersection(table.columns["group"]):
         return None
     return np.array([block or 0 for block in found], dtype=np.int64)
 

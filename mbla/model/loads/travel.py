@@ -80,7 +80,7 @@ def travel_variants(
     through, on = entry.load.through, entry.load.on
     chosen: IntArray | None = np.arange(len(site.blocks))
     if on is not None:
-        chosen = select_blocks(on, (*entry.path, "on"), site.roster)
+        chosen = select_blocks(on, (*entry.path, "on"), site.selection)
     if chosen is None or (through is not None and through not in site.fill):
         return []
     axles, path = _axles(travel, site), (*entry.path, "travel")
@@ -100,10 +100,10 @@ def travel_variants(
     steps = np.diff(np.array(travel.path), axis=0)
     if not all(landing.sound(axles.forces, step, axles.width) for step in steps):
         return []
-    before = len(site.roster.faults)
+    before = len(site.selection.faults)
     found = [_landed(landing, travel, axles.width, *each) for each in vehicle]
     bare = [(number, place) for number, (_, place) in enumerate(found, start=1) if place is not None]
-    if bare and len(site.roster.faults) == before and not site.roster.partial:
+    if bare and len(site.selection.faults) == before and not site.selection.partial:
         _refuse_bare(bare, len(vehicle), landing)
     if bare:
         return []
@@ -170,7 +170,7 @@ def _remark_off_path(forces: FloatArray, acting: Sequence[BoolArray], path: KeyP
             f"{where}: at {len(off)} of {len(acting)} positions axles are beyond the ends of the path and do not act, "
             f"at position {off[most]} {100 * shares[most]:.3g} % of the whole force: the path is where axles stand"
         )
-        site.roster.remark(Notice("notice", "axles-beyond-path", words))
+        site.selection.remark(Notice("notice", "axles-beyond-path", words))
     remark_upwards(forces, where, site)
 
 

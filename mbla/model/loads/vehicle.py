@@ -82,12 +82,12 @@ def vehicle_load(entry: Entry, blocks: IntArray | None, site: LoadSite) -> Appli
     way = unit(stands.along)
     if not landing.sound(axles.forces, way, axles.width):
         return None
-    places, before = np.array(stands.at) - axles.behind[:, None] * way, len(site.roster.faults)
+    places, before = np.array(stands.at) - axles.behind[:, None] * way, len(site.selection.faults)
     found = [landing.of(place, level(way), axles.width) for place in places]
     words = f"vehicle {stands.name} at {vector(stands.at)} {site.units.length} along {vector(way)}"
     bare = [place for place, each in zip(places, found, strict=True) if each is None]
     if bare or not any(each is not None and len(each.blocks) for each in found):
-        if len(site.roster.faults) == before and not site.roster.partial:
+        if len(site.selection.faults) == before and not site.selection.partial:
             message = "all of it goes beyond the blocks under the fill: move it"
             if bare:
                 message = (

@@ -16,7 +16,7 @@ from mbla.deck.sections.ties import FORMS, Plate, TieSection
 from mbla.deck.text.tree import KeyPath
 from mbla.errors import Finding
 from mbla.model.blocks.amounts import copies_of
-from mbla.model.selectors import Roster, select_blocks
+from mbla.model.selectors import BlockSelection, select_blocks
 from mbla.model.solids.blocks import Blocks
 from mbla.model.solids.plane import unit
 from mbla.model.solids.ragged import items_of_rows
@@ -46,31 +46,31 @@ class Line:
     closed: bool = False
 
 
-def build_ties(sections: Sequence[TieSection], roster: Roster, fixed: BoolArray, tolerance: float) -> Ties:
-    """The ties of a deck; faults go to the roster.
+def build_ties(sections: Sequence[TieSection], selection: BlockSelection, fixed: BoolArray, tolerance: float) -> Ties:
+    """The ties of a deck; faults go to the selection.
 
     fixed     : (n_blocks,) blocks that do not move
     tolerance : of contacts, relative to block size
     """
     parts, counts = list[Ties](), dict[str, int]()
-    if _refused_for_number(sections, roster):
+    if _refused_for_number(sections, selection):
         return NO_TIES
     for number, section in enumerate(sections):
         path: KeyPath = ("ties", number)
-        lines = list(build_lines(section, path, roster, tolerance))
+        lines = list(build_lines(section, path, selection, tolerance))
         if section.prestress is not None and section.prestress > capacity_of(section):
             words = f"must be <= {capacity_of(section):.6g}, the capacity of the tie"
-            roster.refuse(Finding("out-of-bounds", words, *path, "prestress"))
+            selection.refuse(Finding("out-of-bounds", words, *path, "prestress"))
         idle = sum(not can_move(line.bodies, fixed) for line in lines)
-        if idle and not roster.faults:
+        if idle and not selection.faults:
             hold = "holds" if idle == 1 else "hold"
             words = f"{idle} of {counted(len(lines), 'tie')} {hold} nothing: no two blocks that can move apart"
-            roster.refuse(Finding("tie-without-effect", words, *path))
+            selection.refuse(Finding("tie-without-effect", words, *path))
         parts.append(_ties(section, lines, counts))
     return joined_ties(parts)
 
 
-def _refused_for_number(sections: Sequence[TieSection], roster: Roster) -> bool:
+def _refused_for_number(sections: Sequence[TieSection], selection: BlockSelection) -> bool:
     """Whether ties lay out more lines than can be handled, each or together, before any of them is made."""
     most, counts = MOST_TIES, [lines_of(section) for section in sections]
     words = f"ties; at most {most:,} can be handled: check repeat, and the unit of what moves copies"
@@ -78,9 +78,9 @@ def _refused_for_number(sections: Sequence[TieSection], roster: Roster) -> bool:
     for number in too_many:
         key = ("repeat",) if copies_of(sections[number].repeat) > 1 else ()
         about = f"lays out {min(counts[number], 10**300):.0e} {words}"
-        roster.refuse(Finding("too-many-ties", about, "ties", number, *key))
+        selection.refuse(Finding("too-many-ties", about, "ties", number, *key))
     if not too_many and sum(counts) > most:
-        roster.refuse(Finding("too-many-ties", f"lay out {sum(counts):.0e} {words}", "ties"))
+        selection.refuse(Finding("too-many-ties", f"lay out {sum(counts):.0e} {words}", "ties"))
     return sum(counts) > most
 
 
@@ -154,49 +154,51 @@ def plate_capacities(plate: Plate) -> list[float]:
     return [surface * strength for strength in (plate.shear_strength, plate.tensile_strength) if strength is not None]
 
 
-def build_lines(section: TieSection, path: KeyPath, roster: Roster, tolerance: float) -> Iterator[Line]:
-    """The lines of a section and of its copies; faults go to the roster."""
+def build_lines(section: TieSection, path: KeyPath, selection: BlockSelection, tolerance: float) -> Iterator[Line]:
+    """The lines of a section and of its copies; faults go to the selection."""
     for copy in repetitions(section.repeat):
-        yield from _lines(section, copy, path, roster, tolerance)
+        yield from _lines(section, copy, path, selection, tolerance)
 
 
-def _lines(section: TieSection, copy: AffineMap, path: KeyPath, roster: Roster, tolerance: float) -> Iterator[Line]:
+def _lines(
+    section: TieSection, copy: AffineMap, path: KeyPath, selection: BlockSelection, tolerance: float
+) -> Iterator[Line]:
     """The lines of one copy of a tie."""
     if section.ring is not None:
         if not (np.array_equal(copy.matrix, np.eye(3)) and not copy.offset[:2].any()):
             words = "copies of a ring may be moved along z only: it goes round its blocks wherever they are"
-            roster.refuse(Finding("tie-misfit", words, *path, "repeat"))
+            selection.refuse(Finding("tie-misfit", words, *path, "repeat"))
             return
         for number, z in enumerate(section.ring.z):
-            yield from _ring(section, z, copy, (*path, "ring"), number, roster, tolerance)
+            yield from _ring(section, z, copy, (*path, "ring"), number, selection, tolerance)
         return
     points = section.through or section.strip
     assert points is not None  # a rule of the deck: one of the forms
     places = copy.points(np.array(points))
     key = "through" if section.through else "strip"
-    far = np.abs(places).max(axis=1) > FARTHEST * np.abs(roster.blocks.vertices).max(initial=1e-300)
-    if far.any() and len(roster.blocks):
+    far = np.abs(places).max(axis=1) > FARTHEST * np.abs(selection.blocks.vertices).max(initial=1e-300)
+    if far.any() and len(selection.blocks):
         words = f"lies more than {FARTHEST:g} times as far away as the blocks"
-        roster.refuse(Finding("coordinate-out-of-range", words, *path, key, int(np.argmax(far))))
+        selection.refuse(Finding("coordinate-out-of-range", words, *path, key, int(np.argmax(far))))
         return
     lengths = np.linalg.norm(np.diff(places, axis=0), axis=1)
     if not (lengths > ALIKE * lengths.sum()).all():
         row = int(np.flatnonzero(lengths <= ALIKE * lengths.sum())[0]) + 1
-        roster.refuse(Finding("degenerate-line", "must not be the point before it", *path, key, row))
+        selection.refuse(Finding("degenerate-line", "must not be the point before it", *path, key, row))
     elif section.strip is not None:
-        yield from _strip(places, (*path, key), roster, tolerance)
+        yield from _strip(places, (*path, key), selection, tolerance)
     else:
-        yield from _through(section, places, path, roster, tolerance)
+        yield from _through(section, places, path, selection, tolerance)
 
 
 def _through(
-    section: TieSection, places: FloatArray, path: KeyPath, roster: Roster, tolerance: float
+    section: TieSection, places: FloatArray, path: KeyPath, selection: BlockSelection, tolerance: float
 ) -> Iterator[Line]:
     """A line through points: one force, or one in each stretch."""
     closed = bool(np.linalg.norm(places[-1] - places[0]) <= CLOSES * np.ptp(places, axis=0).max()) and len(places) > 3
     if closed:
         places = places[:-1]
-    found = [_block_at(section, number, places, path, roster, tolerance) for number in range(len(places))]
+    found = [_block_at(section, number, places, path, selection, tolerance) for number in range(len(places))]
     bodies = np.array([body for body in found if body is not None], dtype=np.int64)
     if len(bodies) < len(places):
         return
@@ -209,21 +211,21 @@ def _through(
 
 
 def _block_at(
-    section: TieSection, number: int, places: FloatArray, path: KeyPath, roster: Roster, tolerance: float
+    section: TieSection, number: int, places: FloatArray, path: KeyPath, selection: BlockSelection, tolerance: float
 ) -> int | None:
     """The block that a point of a line is fixed to, OUTSIDE for ground; None with a fault."""
     anchor = None if section.on is None else section.on[number]
     if anchor == GROUND:
         return OUTSIDE
-    blocks = roster.blocks
+    blocks = selection.blocks
     chosen: IntArray | None = np.arange(len(blocks))
     if anchor is not None:
-        chosen = select_blocks(anchor, (*path, "on", number), roster)
-    if chosen is None or (roster.partial and anchor is None):
+        chosen = select_blocks(anchor, (*path, "on", number), selection)
+    if chosen is None or (selection.partial and anchor is None):
         return None
     found = touched_blocks(places[number], blocks, chosen, tolerance)
     if len(found) > 1 and anchor is None:
-        roster.refuse(_on_joint(f"the point {vector(places[number])}", found, blocks, *path, "through", number))
+        selection.refuse(_on_joint(f"the point {vector(places[number])}", found, blocks, *path, "through", number))
         return None
     if len(found):
         return int(found[0])
@@ -231,7 +233,7 @@ def _block_at(
     if anchor is not None:
         where = f"none of these blocks lies at {vector(places[number])}, the point that it is for"
     key = ("through", number) if anchor is None else ("on", number)
-    roster.refuse(Finding("tie-off-blocks", f"{where}: move the point, or write ground in `on`", *path, *key))
+    selection.refuse(Finding("tie-off-blocks", f"{where}: move the point, or write ground in `on`", *path, *key))
     return None
 
 
@@ -241,31 +243,31 @@ def _ring(
     copy: AffineMap,
     path: KeyPath,
     number: int,
-    roster: Roster,
+    selection: BlockSelection,
     tolerance: float,
 ) -> Iterator[Line]:
     """A closed line along the convex outline of the plan of some blocks at a height."""
     from scipy.spatial import ConvexHull, QhullError
 
     assert section.ring is not None  # who calls knows
-    chosen = select_blocks(section.ring.around, (*path, "around"), roster)
+    chosen = select_blocks(section.ring.around, (*path, "around"), selection)
     if chosen is None:
         return
     height = float(copy.points(np.array([0.0, 0.0, z]))[2])
-    plan = _plan(roster.blocks, chosen, height)
+    plan = _plan(selection.blocks, chosen, height)
     try:
         outline = plan[ConvexHull(plan).vertices]
     except (QhullError, ValueError):
         words = "these blocks have no plan at that height that a ring could go round"
-        roster.refuse(Finding("tie-off-blocks", words, *path, "z", number))
+        selection.refuse(Finding("tie-off-blocks", words, *path, "z", number))
         return
     places = _corners_of(np.column_stack([outline, np.full(len(outline), height)]))
     owners = list[IntArray]()
     for before, place, after in zip(np.roll(places, 1, axis=0), places, np.roll(places, -1, axis=0), strict=True):
-        found = touched_blocks(place, roster.blocks, chosen, tolerance)
-        held = _held_at_corner(before, place, after, roster.blocks, found, tolerance)
+        found = touched_blocks(place, selection.blocks, chosen, tolerance)
+        held = _held_at_corner(before, place, after, selection.blocks, found, tolerance)
         if held is None:
-            roster.refuse(_on_joint(f"its corner {vector(place)}", found, roster.blocks, *path, "z", number))
+            selection.refuse(_on_joint(f"its corner {vector(place)}", found, selection.blocks, *path, "z", number))
             return
         owners.append(held)
     places = np.repeat(places, [len(held) for held in owners], axis=0)
@@ -322,11 +324,11 @@ def _plan(blocks: Blocks, chosen: IntArray, z: float) -> FloatArray:
     return np.asarray((one + share[:, None] * (other - one))[:, :2])
 
 
-def _strip(places: FloatArray, path: KeyPath, roster: Roster, tolerance: float) -> Iterator[Line]:
+def _strip(places: FloatArray, path: KeyPath, selection: BlockSelection, tolerance: float) -> Iterator[Line]:
     """A force along the strip at each place where it crosses from one block to the next."""
-    if roster.partial:
+    if selection.partial:
         return
-    blocks, everything = roster.blocks, np.arange(len(roster.blocks))
+    blocks, everything = selection.blocks, np.arange(len(selection.blocks))
     crossings, last, came = 0, OUTSIDE, np.zeros(3)
     for number, (begin, end) in enumerate(pairwise(places)):
         along = unit(end - begin)
@@ -341,7 +343,7 @@ def _strip(places: FloatArray, path: KeyPath, roster: Roster, tolerance: float) 
                 words = f"its part about {vector(middle)} is inside of {blocks.name(int(under[0]))}: a strip is glued"
                 wrong = Finding("tie-misfit", f"{words} to faces; give points on them", *path, number)
             if wrong is not None:
-                roster.refuse(wrong)
+                selection.refuse(wrong)
                 return
             block = int(under[0]) if len(under) else OUTSIDE
             if OUTSIDE not in (block, last) and block != last:
@@ -351,7 +353,7 @@ def _strip(places: FloatArray, path: KeyPath, roster: Roster, tolerance: float) 
                 crossings += 1
             last, came = block, along
     if not crossings:
-        roster.refuse(Finding("tie-off-blocks", "it crosses no joint between blocks that it lies on", *path))
+        selection.refuse(Finding("tie-off-blocks", "it crosses no joint between blocks that it lies on", *path))
 
 
 def cuts_of(begin: FloatArray, end: FloatArray, blocks: Blocks) -> FloatArray:

@@ -15,7 +15,7 @@ from mbla.deck.sections.ties import TieSection
 from mbla.deck.text.tree import KeyPath
 from mbla.errors import Finding
 from mbla.model.model import Ground
-from mbla.model.selectors import Roster, select_blocks
+from mbla.model.selectors import BlockSelection, select_blocks
 from mbla.model.solids.plane import plane_axes, unit
 from mbla.model.solids.ragged import items_of_rows
 from mbla.model.solids.touching import touched_blocks
@@ -42,9 +42,13 @@ class Candidates:
 
 
 def build_candidates(
-    sections: Sequence[Candidate], roster: Roster, fixed: BoolArray, grounds: Sequence[Ground], tolerance: float
+    sections: Sequence[Candidate],
+    selection: BlockSelection,
+    fixed: BoolArray,
+    grounds: Sequence[Ground],
+    tolerance: float,
 ) -> Candidates:
-    """The candidates of a deck; faults go to the roster.
+    """The candidates of a deck; faults go to the selection.
 
     fixed     : (n_blocks,) blocks that do not move
     grounds   : planes in which bars may end
@@ -55,12 +59,12 @@ def build_candidates(
     stays = _Stays(fixed, grounds)
     for number, section in enumerate(sections):
         path: KeyPath = ("strengthen", "candidates", number)
-        lines = [line for line in _lines(section, path, roster, stays, tolerance) if can_move(line.bodies, fixed)]
-        if not lines and not roster.faults:
+        lines = [line for line in _lines(section, path, selection, stays, tolerance) if can_move(line.bodies, fixed)]
+        if not lines and not selection.faults:
             words = "lays out no tie: none of its lines meets blocks that can move apart"
             if section.vertical is not None:
                 words += ", or ends on a fixed block or on ground"
-            roster.refuse(Finding("tie-without-effect", words, *path))
+            selection.refuse(Finding("tie-without-effect", words, *path))
         made = ties_of("tie", section.name or given(section, PATTERNS)[0], lines, counts)
         parts.append(made)
         costs.append(section.cost * made.lengths)
@@ -80,49 +84,51 @@ class _Stays:
         return bool(self.fixed[block]) or any(lies_on(place[None], ground, near).all() for ground in self.grounds)
 
 
-def _lines(section: Candidate, path: KeyPath, roster: Roster, stays: _Stays, tolerance: float) -> Iterator[Line]:
+def _lines(
+    section: Candidate, path: KeyPath, selection: BlockSelection, stays: _Stays, tolerance: float
+) -> Iterator[Line]:
     if section.across is not None:
-        yield from _across(section.across, (*path, "across"), roster, tolerance)
+        yield from _across(section.across, (*path, "across"), selection, tolerance)
     elif section.vertical is not None:
-        yield from _vertical(section.vertical, (*path, "vertical"), roster, stays, tolerance)
+        yield from _vertical(section.vertical, (*path, "vertical"), selection, stays, tolerance)
     else:
         keys = section.model_dump(include={"ring", "through", "on"}, exclude_none=True, by_alias=True)
-        yield from build_lines(TieSection.model_validate({**keys, "capacity": 1.0}), path, roster, tolerance)
+        yield from build_lines(TieSection.model_validate({**keys, "capacity": 1.0}), path, selection, tolerance)
 
 
 @dataclass(frozen=True)
 class _Wall:
     """Blocks of a wall that lines may meet; ``low`` and ``high`` corners of their box."""
 
-    roster: Roster
+    selection: BlockSelection
     chosen: IntArray
     tolerance: float
     low: FloatArray
     high: FloatArray
 
     @staticmethod
-    def of(roster: Roster, chosen: IntArray, tolerance: float) -> _Wall:
-        blocks = roster.blocks
+    def of(selection: BlockSelection, chosen: IntArray, tolerance: float) -> _Wall:
+        blocks = selection.blocks
         vertices = blocks.vertices[items_of_rows(blocks.vertex_start, chosen)]
-        return _Wall(roster, chosen, tolerance, vertices.min(axis=0), vertices.max(axis=0))
+        return _Wall(selection, chosen, tolerance, vertices.min(axis=0), vertices.max(axis=0))
 
     def met_by(self, begin: FloatArray, end: FloatArray) -> tuple[FloatArray, int] | None:
         """Where a line first comes to the wall, (3,) m, and the block there; None where it misses it."""
-        cuts = cuts_of(begin, end, self.roster.blocks)
+        cuts = cuts_of(begin, end, self.selection.blocks)
         for first, last in pairwise(cuts):
             middle = begin + 0.5 * (first + last) * (end - begin)
-            found = touched_blocks(middle, self.roster.blocks, self.chosen, self.tolerance)
+            found = touched_blocks(middle, self.selection.blocks, self.chosen, self.tolerance)
             if len(found):
                 return begin + first * (end - begin), int(found[0])
         return None
 
 
-def _across(section: Across, path: KeyPath, roster: Roster, tolerance: float) -> Iterator[Line]:
+def _across(section: Across, path: KeyPath, selection: BlockSelection, tolerance: float) -> Iterator[Line]:
     """Lines from the outer face of one wall to that of the other."""
-    chosen = [select_blocks(each, (*path, "between", side), roster) for side, each in enumerate(section.between)]
+    chosen = [select_blocks(each, (*path, "between", side), selection) for side, each in enumerate(section.between)]
     if any(each is None for each in chosen):
         return
-    one, other = (_Wall.of(roster, each, tolerance) for each in chosen if each is not None)
+    one, other = (_Wall.of(selection, each, tolerance) for each in chosen if each is not None)
     apart = (other.low + other.high - one.low - one.high) / 2.0
     along = np.eye(3)[np.abs(apart[:2]).argmax()] if section.along is None else unit(np.array(section.along))
     along = along * (1.0 if along @ apart >= 0.0 else -1.0)
@@ -135,14 +141,14 @@ def _across(section: Across, path: KeyPath, roster: Roster, tolerance: float) ->
         low, high = _shared(one, other, aside)
         if high > low:
             words = f"must be <= {high - low:.6g}, the length along which the walls face each other"
-            roster.refuse(Finding("out-of-bounds", words, *path, "every"))
+            selection.refuse(Finding("out-of-bounds", words, *path, "every"))
         else:
             words = "the walls do not face each other: give another way with `along`"
-            roster.refuse(Finding("tie-without-effect", words, *path))
+            selection.refuse(Finding("tie-without-effect", words, *path))
         return
     count = len(section.z) * len(places) ** (1 if section.pairs == "opposite" else 2)
     if count > MOST_LINES:
-        roster.refuse(_too_many(count, *path))
+        selection.refuse(_too_many(count, *path))
         return
     for z in section.z:
         across = [s * aside + (z - s * aside[2]) * UP for s in places]
@@ -179,16 +185,18 @@ def _too_many(count: int, *key: str | int) -> Finding:
     return Finding("too-many-candidates", f"lays out {count} ties, at most {MOST_LINES} can be handled", *key)
 
 
-def _vertical(section: Vertical, path: KeyPath, roster: Roster, stays: _Stays, tolerance: float) -> Iterator[Line]:
+def _vertical(
+    section: Vertical, path: KeyPath, selection: BlockSelection, stays: _Stays, tolerance: float
+) -> Iterator[Line]:
     """Lines from the highest block at each place of a grid down to where the lowest one there is fixed or on ground."""
-    chosen = select_blocks(section.down, (*path, "down"), roster)
+    chosen = select_blocks(section.down, (*path, "down"), selection)
     if chosen is None:
         return
-    wall = _Wall.of(roster, chosen, tolerance)
-    everything = _Wall.of(roster, np.arange(len(roster.blocks)), tolerance)
+    wall = _Wall.of(selection, chosen, tolerance)
+    everything = _Wall.of(selection, np.arange(len(selection.blocks)), tolerance)
     counts = [max((wall.high[axis] - wall.low[axis]) // section.every, 1.0) for axis in (0, 1)]
     if counts[0] * counts[1] > MOST_LINES:
-        roster.refuse(_too_many(int(counts[0] * counts[1]), *path, "every"))
+        selection.refuse(_too_many(int(counts[0] * counts[1]), *path, "every"))
         return
     grid = []
     for axis in (0, 1):
@@ -201,7 +209,7 @@ def _vertical(section: Vertical, path: KeyPath, roster: Roster, stays: _Stays, t
         met, below = wall.met_by(top, foot), everything.met_by(foot, top)
         if met is None or below is None:
             continue
-        near = tolerance * float(roster.blocks.sizes[below[1]])
+        near = tolerance * float(selection.blocks.sizes[below[1]])
         if stays.bears(*below, near):
             line = np.stack([met[0], below[0]])
             yield Line(np.array([met[1], OUTSIDE]), line, pulls_along(line, closed=False))

@@ -53,9 +53,9 @@ def question_of(deck: Deck, log: Log) -> tuple[Model, Candidates, Strengthening]
     model = assembly.model
     structure = structure_of(deck)
     tolerance = deck.contacts.tolerance
-    candidates = build_candidates(section.candidates, structure.roster, model.fixed, model.grounds, tolerance)
-    if structure.roster.faults:
-        raise DeckError(structure.roster.faults)
+    candidates = build_candidates(section.candidates, structure.selection, model.fixed, model.grounds, tolerance)
+    if structure.selection.faults:
+        raise DeckError(structure.selection.faults)
     cases = {case.name: case for case in model.load_cases}
     return (
         model,
