@@ -13,9 +13,11 @@ import numpy as np
 from mbla.arrays import FloatArray, IntArray
 from mbla.results.pictures.camera import Camera, Room, fitted, view_of_case
 from mbla.results.pictures.fill import fill_marks
+from mbla.results.pictures.forces import force_marks
 from mbla.results.pictures.geometry import block_edges, edges_of_blocks
+from mbla.results.pictures.joints import joint_marks
 from mbla.results.pictures.loads import shown_loads
-from mbla.results.pictures.marks import Mark, force_marks, joint_marks, moved
+from mbla.results.pictures.marks import Mark, moved
 from mbla.results.pictures.options import DOTS_PER_INCH, PictureOptions, format_of
 from mbla.results.pictures.page import (
     FIXED_BLOCK,

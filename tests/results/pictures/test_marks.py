@@ -8,8 +8,10 @@ from typing import Any
 import numpy as np
 import pytest
 
-from mbla.results.pictures import marks as module
-from mbla.results.pictures.marks import Mark, force_marks, interface_sides, joint_marks, moved, rings
+from mbla.results.pictures import forces
+from mbla.results.pictures.forces import force_marks
+from mbla.results.pictures.joints import THIN, interface_sides, joint_marks
+from mbla.results.pictures.marks import Mark, arrows, moved, rings, segments
 from mbla.results.pictures.options import PictureOptions
 from mbla.results.pictures.scene import Scene, scene_of
 from mbla.results.results import Results
@@ -58,7 +60,7 @@ def test_hinges_that_the_listing_does_not_tell_are_thin() -> None:
     assert shown.failure is not None
     assert named(joint_marks(shown))["hinge"].widths.tolist() == [1.0]
     shown.__dict__["failure"] = replace(shown.failure, hinge_lines=())
-    assert named(joint_marks(shown))["hinge"].widths.tolist() == [module.THIN]
+    assert named(joint_marks(shown))["hinge"].widths.tolist() == [THIN]
 
 
 def test_in_space_the_crack_between_parts_is_drawn_once_around() -> None:
@@ -131,11 +133,11 @@ def test_arrows_move_with_their_tip_and_keep_their_direction() -> None:
     motion = np.zeros((3, 6))
     motion[1] = [0, 0, 2.0, 0, 0, 0.3]
     ends = np.array([[[0.5, 0.5, 2.0], [0.5, 0.5, 3.0]]])
-    still = module.segments("", "", ends, np.array([[-1, 3]]), [""])
+    still = segments("", "", ends, np.array([[-1, 3]]), [""])
     assert moved(still, results.model, motion) == pytest.approx(ends[0])
-    half = module.segments("", "", ends[:, ::-1], np.array([[1, 0]]), [""])
+    half = segments("", "", ends[:, ::-1], np.array([[1, 0]]), [""])
     assert moved(half, results.model, motion)[1] == pytest.approx([0.5, 0.5, 3.0])
-    arrow = module.arrows("", "", ends[:, 1], ends[:, 1] - ends[:, 0], np.array([[1, 1]]), [""])
+    arrow = arrows("", "", ends[:, 1], ends[:, 1] - ends[:, 0], np.array([[1, 1]]), [""])
     start, tip = moved(arrow, results.model, motion)
     assert tip - start == pytest.approx([0, 0, 1])
     assert tip == pytest.approx([0.5, 0.5, 5.0])
@@ -195,8 +197,8 @@ def test_a_chain_of_blocks_has_a_line_of_thrust_and_sections_in_proportion_to_fo
 
 
 def test_only_the_largest_resultants_are_drawn(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(module, "MOST", 2)
-    assert module.drawn_resultants(scene(column_of_blocks(0.5, 0.6, 0.8), kind="forces")).tolist() == [1, 2]
+    monkeypatch.setattr(forces, "MOST", 2)
+    assert forces.drawn_resultants(scene(column_of_blocks(0.5, 0.6, 0.8), kind="forces")).tolist() == [1, 2]
 
 
 def test_without_forces_there_are_none_to_draw() -> None:
