@@ -13,7 +13,8 @@ from mbla.questions.figures import significant
 from mbla.questions.force import Force
 from mbla.questions.travel import TravelPosition
 from mbla.results.force_range import ForceRange, end_value
-from mbla.results.listing.text import counted, entry, heading, number, sentence, table, vector
+from mbla.results.listing.blocks import GAP, Fact, ListingSection, Paragraph, apart, table_of
+from mbla.results.listing.text import counted, number, vector
 from mbla.results.outcome import answer_bounds, answer_of, associative_of, least_of, result_of
 from mbla.results.record.json_values import number as json_number
 from mbla.results.results import CaseResult
@@ -37,11 +38,11 @@ def reaction_json(case: CaseResult) -> dict[str, Any] | None:
     }
 
 
-def answer_lines(model: Model, case: CaseResult) -> list[str]:
-    """What a case asks for besides its load factor, and its bounds, one to a line."""
+def answer_facts(model: Model, case: CaseResult) -> list[Fact]:
+    """What a case asks for besides its load factor, and its bounds."""
     question = case.load_case.question
     entries = question.entries(question.shown(answer_of(case)), proved_bounds(case), model.units)
-    return [line for name, text in entries for line in entry(name, text)]
+    return [Fact(name, text) for name, text in entries]
 
 
 # --- The answer of a case in digits for tables ----------------------------------------------------------------------
@@ -110,16 +111,16 @@ PROVED = (
 )
 
 
-def objective_lines(model: Model, found: ForceRange) -> list[str]:
+def objective_section(model: Model, found: ForceRange) -> ListingSection:
     """The section of one force in the listing."""
     unit = model.units.force
-    lines = heading(f"Force {found.name}") + sentence(f"{range_words(model, found)}.")
     head = ["end", "status", f"force [{unit}]", f"lower bound [{unit}]", f"upper bound [{unit}]"]
     rows = [
         [end, status_name(case.status), _end_figure(case), *(digits(bound) for bound in answer_bounds(case))]
         for end, case in found.ends.items()
     ]
-    return [*lines, "", *table(head, rows, left=2), "", *sentence(PROVED)]
+    says = Paragraph(f"{range_words(model, found)}.")
+    return ListingSection(f"Force {found.name}", [says, *apart(table_of(head, rows, left=2)), GAP, Paragraph(PROVED)])
 
 
 def range_words(model: Model, found: ForceRange) -> str:
@@ -155,14 +156,13 @@ MOST_NAMED = 5
 """positions without a load factor that are named"""
 
 
-def series_lines(model: Model, series: Series) -> list[str]:
+def series_section(model: Model, series: Series) -> ListingSection:
     """The section of one travelling load in the listing."""
     length = model.units.length
-    lines = heading(f"Travelling load {series.name}")
-    for words in (worst_words(model, series), spread_over_positions(series)):
-        lines += sentence(f"{words}.")
+    says = [Paragraph(f"{words}.") for words in (worst_words(model, series), spread_over_positions(series))]
     head = ["load case", "status", f"along path [{length}]", f"axle 1 at [{length}]", "block", "axles", "load factor"]
-    return [*lines, "", *table(head, [_row(model, series, case) for case in series.cases], left=2)]
+    rows = table_of(head, [_row(model, series, case) for case in series.cases], left=2)
+    return ListingSection(f"Travelling load {series.name}", [*says, *apart(rows)])
 
 
 def worst_words(model: Model, series: Series) -> str:

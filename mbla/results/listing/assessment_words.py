@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from mbla.deck.sections.assessment import LIMIT_STATES
 from mbla.results.assessment import NAMES, OLD
-from mbla.results.listing.text import full_sentence, heading, number, sentence, table
+from mbla.results.listing.blocks import GAP, Block, ListingSection, apart, paragraphs, table_of
+from mbla.results.listing.text import full_sentence, number, section_lines
 from mbla.results.results import CaseResult, Results
 
 MODELLED = (
@@ -45,14 +46,14 @@ def assessment_words(case: CaseResult) -> str:
 
 def all_assessment_lines(results: Results) -> list[str]:
     """Of every load case that has an assessment, under its name."""
-    lines = [results.model.title or results.deck.name]
-    for case in results.cases:
-        if case.assessment is not None:
-            lines += [*heading(f"Load case {case.load_case.name}"), *assessment_lines(case)]
-    return lines
+    assessed = [case for case in results.cases if case.assessment is not None]
+    sections = [
+        ListingSection(f"Load case {case.load_case.name}", [GAP, *assessment_blocks(case)]) for case in assessed
+    ]
+    return [results.model.title or results.deck.name, *section_lines(sections)]
 
 
-def assessment_lines(case: CaseResult) -> list[str]:
+def assessment_blocks(case: CaseResult) -> list[Block]:
     """The same, every figure with its article, and what is not in it."""
     found = case.assessment
     if found is None:
@@ -61,9 +62,6 @@ def assessment_lines(case: CaseResult) -> list[str]:
         [each.limit_state, each.symbol, number(each.value), each.unit, each.article, each.words]
         for each in found.figures
     ]
-    lines = ["", *sentence(assessment_words(case))]
-    if not rows:
-        return lines
-    lines += ["", *table(["", "symbol", "value", "unit", "article", ""], rows, left=6), ""]
-    said = (MODELLED, OF_2009 if found.code == NAMES[OLD] else OF_2019)
-    return lines + [line for words in said for line in sentence(words)]
+    figures = apart(table_of(["", "symbol", "value", "unit", "article", ""], rows, left=6))
+    said = apart(paragraphs(MODELLED, OF_2009 if found.code == NAMES[OLD] else OF_2019)) if rows else []
+    return [*paragraphs(assessment_words(case)), *figures, *said]

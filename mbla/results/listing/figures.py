@@ -10,12 +10,13 @@ import numpy as np
 from mbla.arrays import evenly
 from mbla.model.model import Model
 from mbla.results.listing.answers import (
+    answer_facts,
     answer_figure,
-    answer_lines,
     digits,
     status_name,
 )
-from mbla.results.listing.text import MOST_ROWS, counted, entry, long_table, number, sentence, small, table
+from mbla.results.listing.blocks import MOST_ROWS, Block, Fact, Paragraph, facts, table_of
+from mbla.results.listing.text import counted, number, small
 from mbla.results.listing.verdict_words import load_factor_words
 from mbla.results.outcome import (
     FALLEN,
@@ -33,44 +34,49 @@ from mbla.solution.solution import Mechanics, ModelSize, Solution, Status
 from mbla.solution.verification.verify_points import tolerances
 
 
-def figures(model: Model, case: CaseResult) -> list[str]:
-    """Load factors by both flow rules, bounds, residuals, size of the program, verdict of the verification."""
+def figures(model: Model, case: CaseResult) -> list[Fact]:
+    """Load factors by both flow rules, bounds, size of the program, verdict of the verification."""
     question = case.load_case.question
-    lines = entry("status", status_name(case.status))
-    lines += (answer_lines(model, case) if question.entries_first else []) + _factors(model, case) + _bounds(case)
-    lines += _standing(model, case)
+    rows = [Fact("status", status_name(case.status))]
+    rows += (answer_facts(model, case) if question.entries_first else []) + _factors(model, case) + _bounds(case)
+    rows += _standing(model, case)
     if case.solution.size is not None:
-        lines += entry("solved as", size_words(case.solution.size))
-    rows = residual_rows(case)
-    table_of_residuals = table(["residual", "relative to", "value", "at most", ""], rows, left=2) if rows else []
-    return lines + solver_lines(case.solution) + _verification(case) + table_of_residuals
+        rows.append(Fact("solved as", size_words(case.solution.size)))
+    return [*rows, *solver_facts(case.solution), _verification(case)]
 
 
-def _factors(model: Model, case: CaseResult) -> list[str]:
+def figure_blocks(model: Model, case: CaseResult) -> list[Block]:
+    """All of that, and the residuals."""
+    head = ["residual", "relative to", "value", "at most", ""]
+    return [*facts(figures(model, case)), *table_of(head, residual_rows(case), left=2)]
+
+
+def _factors(model: Model, case: CaseResult) -> list[Fact]:
     """The factor by the deck's flow rule with all that surrounds it, then the associative one."""
     solution = case.solution
     own, best, associative = result_of(case), best_iterate(case), associative_of(case)
     rule = solution.flow_rule
-    lines = entry("scheme", solution.scheme) if solution.scheme else []
+    rows = [Fact("scheme", solution.scheme)] if solution.scheme else []
     if own is not None:
-        lines += entry(f"load factor, {rule}", number(own.load_factor))
+        rows.append(Fact(f"load factor, {rule}", number(own.load_factor)))
     if best is not None:
-        lines += entry(f"best iterate, {rule}", f"{number(best.load_factor)}   (no load factor)")
+        rows.append(Fact(f"best iterate, {rule}", f"{number(best.load_factor)}   (no load factor)"))
     question = case.load_case.question
-    lines += [] if question.entries_first else answer_lines(model, case)
+    rows += [] if question.entries_first else answer_facts(model, case)
     if not np.isnan(least_of(case)):
-        lines += entry(f"{question.head(model.units)}, least found", answer_figure(case.load_case, least_of(case)))
+        head = f"{question.head(model.units)}, least found"
+        rows.append(Fact(head, answer_figure(case.load_case, least_of(case))))
     if associative is not None and solution.flow_rule != "associative":
-        lines += entry("load factor, associative", _beside(associative, own))
-    return lines
+        rows.append(Fact("load factor, associative", _beside(associative, own)))
+    return rows
 
 
-def _bounds(case: CaseResult) -> list[str]:
+def _bounds(case: CaseResult) -> list[Fact]:
     checks = case.checks
     if np.isnan(checks.static_bound) and np.isnan(checks.kinematic_bound):
         return []
-    lines = entry("associative, static bound", digits(checks.static_bound))
-    return lines + entry("associative, kinematic bound", digits(checks.kinematic_bound))
+    bounds = {"static": checks.static_bound, "kinematic": checks.kinematic_bound}
+    return [Fact(f"associative, {name} bound", digits(value)) for name, value in bounds.items()]
 
 
 def _beside(associative: Mechanics, own: Mechanics | None) -> str:
@@ -97,17 +103,16 @@ def residual_rows(case: CaseResult) -> list[list[str]]:
     return rows
 
 
-def _standing(model: Model, case: CaseResult) -> list[str]:
+def _standing(model: Model, case: CaseResult) -> list[Fact]:
     """Whether it stands before any live load, and the block that falls."""
     standing = case.solution.standing
     if standing is None:
         return []
     block = "" if standing.block is None else f": {model.blocks.name(standing.block)} would fall first"
-    lines = entry("stands under dead load", f"{standing.verdict.value}{block}")
-    lines += sentence(standing.reason, "    ")
-    if locked_in(case) and case.solution.mechanics is not None:
-        lines += sentence("WARNING: the load factor presumes a self-stressed state; it is no collapse load", "    ")
-    return lines
+    locked = locked_in(case) and case.solution.mechanics is not None
+    warning = "WARNING: the load factor presumes a self-stressed state; it is no collapse load" * locked
+    notes = (standing.reason, warning)
+    return [Fact("stands under dead load", f"{standing.verdict.value}{block}", tuple(filter(None, notes)))]
 
 
 def size_words(size: ModelSize) -> str:
@@ -122,16 +127,16 @@ def size_words(size: ModelSize) -> str:
     return ", ".join(words)
 
 
-def _verification(case: CaseResult) -> list[str]:
+def _verification(case: CaseResult) -> Fact:
     """``passed`` for an answer; for a case that has none only that its status is confirmed."""
     if not case.checks.verified:
         failures = (text for text in case.checks.failures if text != case.solution.reason)
-        return entry("verification", "NOT PASSED") + [line for text in failures for line in sentence(text, "    ")]
+        return Fact("verification", "NOT PASSED", tuple(failures))
     if case.status in (Status.NO_EQUILIBRIUM, Status.UNBOUNDED):
-        return entry("verification", f"confirmed: {status_name(case.status)}")
+        return Fact("verification", f"confirmed: {status_name(case.status)}")
     if case.solution.mechanics is None:
-        return entry("verification", "nothing contradicts the status")
-    return entry("verification", "passed: everything recomputed from model, contacts and solution")
+        return Fact("verification", "nothing contradicts the status")
+    return Fact("verification", "passed: everything recomputed from model, contacts and solution")
 
 
 def solver_json(solution: Solution) -> dict[str, Any]:
@@ -143,11 +148,11 @@ def solver_json(solution: Solution) -> dict[str, Any]:
     }
 
 
-def solver_lines(solution: Solution) -> list[str]:
+def solver_facts(solution: Solution) -> list[Fact]:
     """Who solved the cone programs, and what factorised for them."""
     used = [[program.solver, program.factorization] for program in solution.programs if program.solver]
     names = _distinct(f"{solver} ({library})" if library else solver for solver, library in used)
-    return entry("solver", ", ".join(names)) if names else []
+    return [Fact("solver", ", ".join(names))] if names else []
 
 
 def _distinct(names: Iterable[str]) -> list[str]:
@@ -158,7 +163,7 @@ def _distinct(names: Iterable[str]) -> list[str]:
 # --- The programs of a solution as a table, and what each was for ---------------------------------------------------
 
 
-def program_lines(solution: Solution) -> list[str]:
+def program_blocks(solution: Solution) -> list[Block]:
     """What each program gave."""
     programs = solution.programs
     if not programs:
@@ -176,12 +181,12 @@ def program_lines(solution: Solution) -> list[str]:
         ]
         for program in programs
     ]
-    says = f"{counted(len(programs), 'program')}, {counted(total, 'iteration')}, {solution.seconds:.3f} s:"
+    says = f"{counted(len(programs), 'program')}, {counted(total, 'iteration')}, {solution.seconds:.3f} s"
     head = ["program", "for", "status", "load factor", "change", "iterations", "seconds"]
-    lines = ["", *sentence(says), *long_table(head, rows[:MOST_ROWS], len(rows), left=3)[1:]]
-    if any(program.kind == "reverse" for program in programs):
-        lines += sentence("The program with the live load reversed shows whether the dead load alone is carried.")
-    return lines
+    reverse = "The program with the live load reversed shows whether the dead load alone is carried."
+    reversed_too = any(program.kind == "reverse" for program in programs)
+    blocks = table_of(head, rows[:MOST_ROWS], left=3, caption=says, total=len(rows))
+    return blocks + ([Paragraph(reverse)] if reversed_too else [])
 
 
 # --- The path of elastic joints in words ----------------------------------------------------------------------------
@@ -199,7 +204,7 @@ ROW_OFF = 1e-3
 """share by which the row of the greatest load lies off the load factor, from which that is explained"""
 
 
-def path_lines(model: Model, case: CaseResult) -> list[str]:
+def path_blocks(model: Model, case: CaseResult) -> list[Block]:
     """Greatest load and end of the path, and a table of the steps that matter; nothing where no path was followed."""
     solution = case.solution
     path = solution.path
@@ -233,5 +238,5 @@ def path_lines(model: Model, case: CaseResult) -> list[str]:
         says += f" Rows are of steps on the way, smoothed; step {peak.step} solved until the law of its joints holds, "
         says += f"or one next to it, carries {highest}."
     head = ["step", "displacement", "load factor", "points open", "sliding"]
-    rough = [] if all(point.balanced for point in shown) else sentence("*: on the way, not in balance")
-    return ["", *sentence(says), *long_table(head, rows, len(path))[1:], *rough]
+    rough = [] if all(point.balanced for point in shown) else [Paragraph("*: on the way, not in balance")]
+    return [Paragraph(says), *table_of(head, rows, total=len(path)), *rough]

@@ -15,13 +15,14 @@ from mbla.results.collapse.mechanics import (
     reactions_of,
 )
 from mbla.results.collapse.thrust import thrust_of
-from mbla.results.listing.text import MOST_ROWS, counted, long_table, number, sentence, table, vector
+from mbla.results.listing.blocks import MOST_ROWS, Block, Paragraph, apart, table_of
+from mbla.results.listing.text import counted, number, vector
 from mbla.results.outcome import result_of
 from mbla.results.results import CaseResult
 from mbla.solution.solution import Mechanics
 
 
-def reaction_lines(model: Model, contacts: Contacts, load_case: LoadCase, mechanics: Mechanics) -> list[str]:
+def reaction_blocks(model: Model, contacts: Contacts, load_case: LoadCase, mechanics: Mechanics) -> list[Block]:
     """Forces of the supports on the structure, and how they balance the loads on the free blocks."""
     reactions = reactions_of(model, contacts, load_case, mechanics)
     total = np.sum([reaction.wrench for reaction in reactions], axis=0) if reactions else np.zeros(6)
@@ -31,14 +32,11 @@ def reaction_lines(model: Model, contacts: Contacts, load_case: LoadCase, mechan
     force, length = model.units.force, model.units.length
     at_collapse = " at collapse" * load_case.question.collapses
     head = ["reaction on the structure", *(f"F{axis}" for axis in "xyz"), *(f"M{axis}" for axis in "xyz")]
-    return [
-        "",
-        *sentence(f"Reactions{at_collapse}, forces in {force}, moments about the origin in {force} {length}:"),
-        *table(head, [[name, *_components(wrench, load)] for name, wrench in named]),
-    ]
+    caption = f"Reactions{at_collapse}, forces in {force}, moments about the origin in {force} {length}"
+    return table_of(head, [[name, *_components(wrench, load)] for name, wrench in named], caption=caption)
 
 
-def group_reaction_lines(model: Model, contacts: Contacts, mechanics: Mechanics) -> list[str]:
+def group_reaction_blocks(model: Model, contacts: Contacts, mechanics: Mechanics) -> list[Block]:
     """Forces of the supports by the group of the blocks that they carry; nothing where they carry one group alone."""
     groups = group_reactions(model, contacts, mechanics.contact_forces)
     if len(groups) < 2:
@@ -48,7 +46,7 @@ def group_reaction_lines(model: Model, contacts: Contacts, mechanics: Mechanics)
     shown = sorted(groups, key=lambda reaction: -float(np.linalg.norm(reaction.wrench[:3])))[:MOST_ROWS]
     head = ["supports carry", *(f"F{axis} [{model.units.force}]" for axis in "xyz")]
     rows = [[reaction.support, *_components(reaction.wrench, size)[:3]] for reaction in shown]
-    return long_table(head, rows, len(groups))
+    return apart(table_of(head, rows, total=len(groups)))
 
 
 def _components(wrench: FloatArray, load: FloatArray) -> list[str]:
@@ -57,7 +55,7 @@ def _components(wrench: FloatArray, load: FloatArray) -> list[str]:
     return [f"{0.0 if abs(v) < 1e-9 * s else v:.5g}" for v, s in zip(wrench, sizes, strict=True)]
 
 
-def lock_lines(model: Model, contacts: Contacts, lock: FloatArray) -> list[str]:
+def lock_blocks(model: Model, contacts: Contacts, lock: FloatArray) -> list[Block]:
     """Forces that balance the live load alone, the largest interfaces first.
 
     lock : (n_points, 3)  N, T1, T2 [N], compression positive
@@ -68,34 +66,35 @@ def lock_lines(model: Model, contacts: Contacts, lock: FloatArray) -> list[str]:
     order = np.argsort(-sizes, kind="stable")[: min(loaded, MOST_ROWS)]
     says = (
         f"Locked: these forces, within the strength of the joints, balance the live load alone, so that any multiple "
-        f"of it is carried; {counted(loaded, 'interface')} take part, the largest:"
+        f"of it is carried; {counted(loaded, 'interface')} take part, the largest"
     )
-    size, lines = float(np.abs(model.blocks.vertices).max(initial=0.0)), []
+    size, rows = float(np.abs(model.blocks.vertices).max(initial=0.0)), []
     for row in order:
         a, b = contacts.bodies[row]
         between = f"{model.body_name(int(a))}/{model.body_name(int(b))}"
-        lines.append([between, vector(contacts.centroids[row], size), number(normal[row]), number(shear[row])])
+        rows.append([between, vector(contacts.centroids[row], size), number(normal[row]), number(shear[row])])
     force = model.units.force
     head = ["interface", f"at [{model.units.length}]", f"normal [{force}]", f"shear [{force}]"]
-    return ["", *sentence(says), *long_table(head, lines, loaded, left=2)[1:]]
+    return table_of(head, rows, left=2, caption=says, total=loaded)
 
 
 # --- What of a structure counts for its load factor, and how unique its forces are, in words ------------------------
 
 
-def enough_lines(case: CaseResult, enough: Enough) -> list[str]:
+def enough_blocks(case: CaseResult, enough: Enough) -> list[Block]:
     """The reduced model with the same load factor; nothing where every free block moves or the case has no result."""
     resting = len(enough.bearing) + len(enough.left_out)
     if result_of(case) is None or not resting or not len(enough.moving):
         return []
     moving, rest = counted(len(enough.moving), "moving block"), counted(resting, "stationary free block")
-    return sentence(
+    says = (
         f"Reduced model: {moving} with {counted(len(enough.interfaces), 'interface')}. Fixing the {rest} leaves the "
         f"load factor unchanged; {len(enough.left_out)} of them touch no moving block and can be removed."
     )
+    return [Paragraph(says)]
 
 
-def freedom_lines(contacts: Contacts, case: CaseResult, freedom: ForceFreedom | str) -> list[str]:
+def freedom_blocks(contacts: Contacts, case: CaseResult, freedom: ForceFreedom | str) -> list[Block]:
     """Whether the forces are unique, or why that is not known; what gives the range of one of them."""
     if result_of(case) is None or not len(contacts):
         return []
@@ -107,13 +106,13 @@ def freedom_lines(contacts: Contacts, case: CaseResult, freedom: ForceFreedom | 
             f"resultants of {int(freedom.determined.sum())} of {counted(len(contacts), 'interface')} are unique."
         )
     ask = " For the least and the greatest value of a force: a load case with objective."
-    return sentence(text + ask * case.load_case.question.collapses)
+    return [Paragraph(text + ask * case.load_case.question.collapses)]
 
 
 # --- Where the power of a mechanism goes ----------------------------------------------------------------------------
 
 
-def work_lines(load_case: LoadCase, work: Work, *, soil: bool = False) -> list[str]:
+def work_blocks(load_case: LoadCase, work: Work, *, soil: bool = False) -> list[Block]:
     """Shares of the power that the loads put in; nothing where they put in none.
 
     What is put in is positive, of loads that are lifted negative; what joints dissipate is positive.
@@ -132,4 +131,4 @@ def work_lines(load_case: LoadCase, work: Work, *, soil: bool = False) -> list[s
     shares = [part(name, power) for name, power in joints.items() if name == "friction" or part("", power) != " 0.0 %"]
     live, dead = load_case.question.powers
     loads = f"{part(live, work.live)}, {part(dead, work.dead)}"
-    return sentence(f"Energy balance, shares of the work put in: {loads}; dissipated: {', '.join(shares)}.")
+    return [Paragraph(f"Energy balance, shares of the work put in: {loads}; dissipated: {', '.join(shares)}.")]

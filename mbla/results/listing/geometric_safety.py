@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import math
 
-from mbla.results.listing.text import number, sentence
+from mbla.results.listing.blocks import Block, Paragraph
+from mbla.results.listing.text import number
 from mbla.results.results import CaseResult
 from mbla.solution.solution import Standing
 
 
-def geometric_safety_lines(case: CaseResult) -> list[str]:
+def geometric_safety_blocks(case: CaseResult) -> list[Block]:
     """The factor, what shows it and how sure it is; nothing where the deck does not ask for it.
 
     It says that some forces carry the dead load, no more than associative flow does: what standing adds goes with it.
@@ -26,7 +27,7 @@ def geometric_safety_lines(case: CaseResult) -> list[str]:
         says += f" {UNASSESSED}"
     elif found.factor >= 1.0 and standing.verdict is not Standing.YES:
         says += f" It is no safety: {standing.reason}."
-    return ["", *sentence(says)]
+    return [Paragraph(says)]
 
 
 ON_MIDDLES = (

@@ -22,8 +22,9 @@ from mbla.results.collapse.interface_modes import InterfaceMode
 from mbla.results.collapse.joint_planes import HingeLine, SlidingPlane
 from mbla.results.collapse.rigid_parts import PartMotion, moving_blocks, moving_share, reach
 from mbla.results.collapse.thrust import curvature_sides
+from mbla.results.listing.blocks import MOST_ROWS, Block, apart, table_of
 from mbla.results.listing.places import direction_words, extents_of, group_words, point_words, span_words
-from mbla.results.listing.text import MOST_ROWS, counted, long_table, number, percent
+from mbla.results.listing.text import counted, number, percent
 from mbla.results.results import CaseResult
 
 MOST_PARTS = 4
@@ -166,27 +167,27 @@ def _yield_words(model: Model, line: YieldLine) -> str:
 T = TypeVar("T", HingeLine, SlidingPlane, Crack)
 
 
-def mechanism_lines(assembly: Assembly, load_case: LoadCase, failure: Failure) -> list[str]:
+def mechanism_blocks(assembly: Assembly, load_case: LoadCase, failure: Failure) -> list[Block]:
     """Parts, then a table each for hinge lines, sliding planes and cracks."""
     model, contacts, outward = assembly.model, assembly.contacts, curvature_sides(assembly.glued(load_case))
     return [
-        *part_lines(model, failure.motions),
-        *_hinge_table(model, contacts, outward, failure.hinge_lines),
-        *_sliding_table(model, contacts, failure.sliding_planes),
-        *_crack_table(model, contacts, failure.cracks),
+        *part_table(model, failure.motions),
+        *apart(_hinge_table(model, contacts, outward, failure.hinge_lines)),
+        *apart(_sliding_table(model, contacts, failure.sliding_planes)),
+        *apart(_crack_table(model, contacts, failure.cracks)),
     ]
 
 
-def part_lines(model: Model, motions: Sequence[PartMotion]) -> list[str]:
+def part_table(model: Model, motions: Sequence[PartMotion]) -> list[Block]:
     """A table of the parts that move, the heaviest first."""
     rows = [
         [f"{part.number}: {group_words(model, part.blocks)}", motion_words(model, part), number(part.weight)]
         for part in motions[:MOST_ROWS]
     ]
-    return long_table(["part", "motion", f"weight [{model.units.force}]"], rows, len(motions), left=2)
+    return table_of(["part", "motion", f"weight [{model.units.force}]"], rows, left=2, total=len(motions))
 
 
-def _hinge_table(model: Model, contacts: Contacts, outward: FloatArray, lines: Sequence[HingeLine]) -> list[str]:
+def _hinge_table(model: Model, contacts: Contacts, outward: FloatArray, lines: Sequence[HingeLine]) -> list[Block]:
     rows = [
         [
             *_joint(model, contacts, line.interfaces, line.clusters),
@@ -199,7 +200,7 @@ def _hinge_table(model: Model, contacts: Contacts, outward: FloatArray, lines: S
     ]
     length = model.units.length
     head = ["hinge lines", "parts", f"from [{length}]", f"length [{length}]", "about", "side"]
-    return long_table(head, rows, len(lines), left=6)
+    return table_of(head, rows, left=6, total=len(lines))
 
 
 def hinge_side(contacts: Contacts, outward: FloatArray, line: HingeLine) -> str:
@@ -217,7 +218,7 @@ def hinge_side(contacts: Contacts, outward: FloatArray, line: HingeLine) -> str:
     return f"{'+' if offset[axis] > 0 else '-'}{'xyz'[axis]}"
 
 
-def _sliding_table(model: Model, contacts: Contacts, planes: Sequence[SlidingPlane]) -> list[str]:
+def _sliding_table(model: Model, contacts: Contacts, planes: Sequence[SlidingPlane]) -> list[Block]:
     """What slides over what, the direction in the plane, the share of the power that shear forces take there."""
     rows = [
         [
@@ -231,10 +232,10 @@ def _sliding_table(model: Model, contacts: Contacts, planes: Sequence[SlidingPla
     ]
     length = model.units.length
     head = ["sliding planes", "parts", f"at [{length}]", "along", f"area [{length}2]", "shear work [%]"]
-    return long_table(head, rows, len(planes), left=4)
+    return table_of(head, rows, left=4, total=len(planes))
 
 
-def _crack_table(model: Model, contacts: Contacts, cracks: Sequence[Crack]) -> list[str]:
+def _crack_table(model: Model, contacts: Contacts, cracks: Sequence[Crack]) -> list[Block]:
     rows = []
     for crack in _shown(cracks):
         normals = contacts.normals[crack.interfaces]
@@ -244,7 +245,7 @@ def _crack_table(model: Model, contacts: Contacts, cracks: Sequence[Crack]) -> l
         rows.append([*joint, *ends, course, f"{crack.area:.4g}"])
     length = model.units.length
     head = ["cracks", "parts", f"from [{length}]", f"to [{length}]", "joints", f"area [{length}2]"]
-    return long_table(head, rows, len(cracks), left=5)
+    return table_of(head, rows, left=5, total=len(cracks))
 
 
 def _shown(found: Sequence[T]) -> list[T]:

@@ -1,33 +1,21 @@
-"""What is said before anything is solved: the model, its contacts, settings, reductions; all of ``mbla check``."""
+"""What is said before anything is solved: the model, settings, reductions; all of ``mbla check``."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
 from mbla import __version__
-from mbla.arrays import FloatArray, IntArray
-from mbla.contacts.contacts import ContactReport, Contacts
-from mbla.contacts.glue import solid_sizes
-from mbla.contacts.notices import glue_words
+from mbla.arrays import IntArray
 from mbla.errors import Notice
-from mbla.model.model import Model
+from mbla.model.model import LoadCase, Model
 from mbla.program.reductions.steps import ReductionStep, StepState
+from mbla.results.listing.blocks import Block, Fact, ListingSection, Paragraph, apart, facts, paragraphs, table_of
+from mbla.results.listing.contact_words import contact_section, finding_sections
 from mbla.results.listing.places import label_words
-from mbla.results.listing.text import (
-    MOST_ROWS,
-    WIDTH,
-    counted,
-    entry,
-    heading,
-    long_table,
-    number,
-    sentence,
-    small,
-    table,
-)
-from mbla.results.listing.tie_words import tie_lines, tie_title
+from mbla.results.listing.text import WIDTH, counted, lines_of, number, section_lines, sentence, text_of
+from mbla.results.listing.tie_words import tie_blocks, tie_title
 from mbla.results.provenance import CaseNeeds
 from mbla.results.results import Results
 
@@ -37,85 +25,93 @@ ROUNDING = 1e-9
 
 def check_listing(results: Results, needs: Mapping[str, CaseNeeds]) -> str:
     """What ``mbla check`` prints: the model and its contacts as in the listing, and what each load case needs."""
-    lines = [
-        *header_lines(results),
-        *settings_lines(results),
-        *model_lines(results.model),
-        *contact_lines(results.model, results.contacts),
-        *finding_lines(results.model, results.contacts.report),
-        *notice_lines(results.notices),
-        *(line for case, own in needs.items() for line in _needs(case, own)),
+    sections = [
+        settings_section(results),
+        *model_sections(results.model),
+        contact_section(results.model, results.contacts),
+        *finding_sections(results.model, results.contacts.report),
+        *notice_sections(results.notices),
+        *(_needs(case, own) for case, own in needs.items()),
     ]
-    lines += sentence("Nothing was solved.")
-    return "\n".join(line.rstrip() for line in lines) + "\n"
+    return text_of([*header_lines(results), *section_lines(sections), *sentence("Nothing was solved.")])
 
 
-def _needs(case: str, needs: CaseNeeds) -> list[str]:
-    lines = heading(f"Needed for load case {case}")
-    lines += [line for name, count in needs.counts.items() for line in entry(name.replace("_", " "), str(count))]
-    return lines + spaced(reduction_lines(needs.reductions))
+def _needs(case: str, needs: CaseNeeds) -> ListingSection:
+    counts = (Fact(name.replace("_", " "), str(count)) for name, count in needs.counts.items())
+    blocks = [*facts(counts), *apart(facts(reduction_facts(needs.reductions)))]
+    return ListingSection(f"Needed for load case {case}", blocks)
 
 
 def header_lines(results: Results) -> list[str]:
-    """Program, deck and date."""
+    """Program, deck and date, as text."""
     version = results.provenance.get("mbla", __version__)
     deck = results.deck
     lines = [f"mbla {version}   limit analysis of masonry as rigid blocks", "=" * WIDTH]
     lines += sentence(results.model.title, "") if results.model.title else []
-    lines += entry("deck", deck.name)
-    lines += [line for name, _ in deck.sources[1:] for line in entry("includes", name)]
-    lines += [line for override in deck.overrides for line in entry("changed by the user", override)]
-    lines += entry("deck hash (SHA-256)", deck.sha256)
-    lines += entry("date", results.created)
-    return lines
+    rows = [
+        Fact("deck", deck.name),
+        *(Fact("includes", name) for name, _ in deck.sources[1:]),
+        *(Fact("changed by the user", override) for override in deck.overrides),
+        Fact("deck hash (SHA-256)", deck.sha256),
+        Fact("date", results.created),
+    ]
+    return lines + lines_of(facts(rows))
 
 
-def settings_lines(results: Results) -> list[str]:
+def settings_section(results: Results) -> ListingSection:
     """Units and the settings in effect."""
     units = results.model.units
-    lines = heading("Units and analysis settings")
-    lines += entry("units", f"{units.length}, {units.force}, {units.mass}, s; angles given as tan φ")
-    return lines + [line for name, value in results.settings.items() for line in entry(name, value)]
+    rows = {"units": f"{units.length}, {units.force}, {units.mass}, s; angles given as tan φ"} | results.settings
+    return ListingSection("Units and analysis settings", facts(Fact(name, value) for name, value in rows.items()))
 
 
-def model_lines(model: Model) -> list[str]:
-    """Blocks by group, joint laws, supports, loads of every case."""
+def model_sections(model: Model) -> list[ListingSection]:
+    """Blocks by group, joint laws; supports; ties; loads of every case."""
+    tables = [*apart(_group_table(model)), *apart(_labels(model)), *apart(_joint_table(model))]
+    ties = tie_blocks(model)
+    return [
+        ListingSection("Model", [*facts(_size(model)), *tables]),
+        ListingSection("Supports", _supports(model)),
+        *([ListingSection(tie_title(model), ties)] if ties else []),
+        ListingSection("Loads", [block for case in model.load_cases for block in _loads(case)]),
+    ]
+
+
+def _loads(case: LoadCase) -> list[Block]:
+    dead = [Fact("dead load", words) for words in case.dead_words or ("none",)]
+    return facts([*dead, *(Fact(case.question.applied, words) for words in case.live_words)], case.name)
+
+
+def _size(model: Model) -> list[Fact]:
+    """Blocks with their volume and weight, and what counts to it."""
     blocks, units = model.blocks, model.units
-    lines = heading("Model")
-    lines += entry("blocks", f"{len(blocks)}, of them {len(model.free)} free and {int(model.fixed.sum())} fixed")
-    lines += _extents(model)
-    lines += entry("volume", f"{number(float(blocks.volumes.sum()))} {units.length}3")
-    lines += entry("weight (9.81 m/s2)", f"{number(model.total_weight)} {units.force}")
+    rows = [
+        Fact("blocks", f"{len(blocks)}, of them {len(model.free)} free and {int(model.fixed.sum())} fixed"),
+        *_extents(model),
+        Fact("volume", f"{number(float(blocks.volumes.sum()))} {units.length}3"),
+        Fact("weight (9.81 m/s2)", f"{number(model.total_weight)} {units.force}"),
+    ]
     others = blocks.added_masses if model.fill is None else blocks.added_masses - model.fill.masses
     added = int((others > ROUNDING * blocks.added_masses).sum())
     if added:
         mass = f"{number(float(others.sum()))} {units.mass} on {counted(added, 'block')}"
-        lines += entry("added masses", f"{mass}; they count to the weights")
+        rows.append(Fact("added masses", f"{mass}; they count to the weights"))
     if model.fill is not None:
         counts = "its mass moves with the blocks under it and counts to their weights"
-        lines += [line for words in model.fill.words for line in entry("fill", f"{words}; {counts}")]
-    lines += ["", *_group_table(model), *_labels(model), "", *_joint_table(model)]
-    lines += heading("Supports") + _supports(model)
-    if ties := tie_lines(model):
-        lines += heading(tie_title(model)) + ties
-    lines += heading("Loads")
-    for case in model.load_cases:
-        lines += sentence(f"{case.name}")
-        lines += [line for words in case.dead_words or ("none",) for line in entry("  dead load", words)]
-        lines += [line for words in case.live_words for line in entry(f"  {case.question.applied}", words)]
-    return lines
+        rows += [Fact("fill", f"{words}; {counts}") for words in model.fill.words]
+    return rows
 
 
-def _extents(model: Model) -> list[str]:
+def _extents(model: Model) -> list[Fact]:
     """The box around the model and the sizes of its blocks: a wrong unit or scale shows here."""
     blocks, length = model.blocks, model.units.length
     least, greatest = blocks.vertices.min(axis=0), blocks.vertices.max(axis=0)
     spans = [f"{axis} {a:.4g} .. {b:.4g}" for axis, a, b in zip("xyz", least + 0.0, greatest + 0.0, strict=True)]
     sizes = f"{number(blocks.sizes.min())} .. {number(blocks.sizes.max())} {length}, cube roots of the volumes"
-    return entry("extents", f"{', '.join(spans)} {length}") + entry("block sizes", sizes)
+    return [Fact("extents", f"{', '.join(spans)} {length}"), Fact("block sizes", sizes)]
 
 
-def _group_table(model: Model) -> list[str]:
+def _group_table(model: Model) -> list[Block]:
     blocks, units, weights = model.blocks, model.units, model.weights
     rows = []
     for name, chosen in _blocks_of_groups(model).items():
@@ -131,16 +127,13 @@ def _group_table(model: Model) -> list[str]:
             ]
         )
     volume, weight = f"volume [{units.length}3]", f"weight [{units.force}]"
-    return table(["group", "blocks", "fixed", volume, weight, f"density [{units.mass}/{units.length}3]"], rows)
+    return table_of(["group", "blocks", "fixed", volume, weight, f"density [{units.mass}/{units.length}3]"], rows)
 
 
-def _labels(model: Model) -> list[str]:
+def _labels(model: Model) -> list[Block]:
     """What selectors can say within each group."""
-    lines = []
-    for name, chosen in _blocks_of_groups(model).items():
-        if words := label_words(model.blocks.labels, chosen):
-            lines += sentence(f"{name}: {words}")
-    return ["", *lines] if lines else []
+    said = {name: label_words(model.blocks.labels, chosen) for name, chosen in _blocks_of_groups(model).items()}
+    return paragraphs(*(f"{name}: {words}" for name, words in said.items() if words))
 
 
 def _blocks_of_groups(model: Model) -> dict[str, IntArray]:
@@ -150,7 +143,7 @@ def _blocks_of_groups(model: Model) -> dict[str, IntArray]:
     return {str(names[i]): members[i] for i in np.argsort(first)}
 
 
-def _joint_table(model: Model) -> list[str]:
+def _joint_table(model: Model) -> list[Block]:
     stress = f"[{model.units.force}/{model.units.length}2]"
     rows = [
         [
@@ -164,20 +157,19 @@ def _joint_table(model: Model) -> list[str]:
         for joint in model.joints.values()
     ]
     head = ["joint law", "friction", f"cohesion {stress}", f"tensile {stress}", f"compressive {stress}", "dilatancy"]
-    return table(head, rows)
+    return table_of(head, rows)
 
 
-def _supports(model: Model) -> list[str]:
-    lines = []
+def _supports(model: Model) -> list[Block]:
+    says = []
     for ground in model.grounds:
         only = "" if ground.blocks is None else f", under {counted(len(ground.blocks), 'block')} only"
-        lines += sentence(f"rigid {ground.label} with joint law {ground.joint}{only}")
+        says.append(f"rigid {ground.label} with joint law {ground.joint}{only}")
     for name, chosen in _blocks_of_groups(model).items():
         held = int(model.fixed[chosen].sum())
         if held:
-            lines += sentence(f"{counted(held, 'block')} of group {name} fixed")
-    lines += [line for words in model.guides.words for line in sentence(words)]
-    return lines or sentence("none")
+            says.append(f"{counted(held, 'block')} of group {name} fixed")
+    return paragraphs(*says, *model.guides.words) or [Paragraph("none")]
 
 
 FOUND = {
@@ -191,114 +183,17 @@ FOUND = {
 """What a reduction counts, and what is done with it."""
 
 
-def reduction_lines(steps: Sequence[ReductionStep]) -> list[str]:
-    """A line for each reduction that found something, in the order in which they are applied."""
-    lines = []
+def reduction_facts(steps: Sequence[ReductionStep]) -> list[Fact]:
+    """A row for each reduction that found something, in the order in which they are applied."""
+    rows = []
     for step in steps:
         if step.state is StepState.APPLIED:
             what, became = FOUND[step.name]
             left = f"{step.after.unknowns} of {step.before.unknowns} velocities left, {step.after.cones} cones"
-            lines += entry(f"reduction, {step.name}", f"{counted(step.found, what)} {became}; {left}")
-    return lines
+            rows.append(Fact(f"reduction, {step.name}", f"{counted(step.found, what)} {became}; {left}"))
+    return rows
 
 
-def notice_lines(notices: Sequence[Notice]) -> list[str]:
+def notice_sections(notices: Sequence[Notice]) -> list[ListingSection]:
     """Every notice and warning with its identifier; nothing where there is none."""
-    if not notices:
-        return []
-    return heading("Remarks") + [line for notice in notices for line in sentence(str(notice))]
-
-
-def spaced(lines: list[str]) -> list[str]:
-    """Lines with an empty one before them; nothing where there are none."""
-    return ["", *lines] if lines else []
-
-
-MOST_NAMED = 5
-"""blocks named in a line"""
-
-
-def contact_lines(model: Model, contacts: Contacts) -> list[str]:
-    """Interfaces, points and areas by joint law, and the findings of the search as counts."""
-    return [*heading("Contacts"), *_by_joint(model, contacts), "", *_counts(model, contacts)]
-
-
-def finding_lines(model: Model, report: ContactReport) -> list[str]:
-    """What the search saw besides contacts, pair by pair and part by part; nothing where there is nothing."""
-    closest = np.argsort(np.abs(report.near_miss_gaps), kind="stable")
-    misses, gaps = report.near_misses[closest], report.near_miss_gaps[closest]
-    near = _pair_table(model, "Near misses", "gap", misses, gaps)
-    widest = np.argsort(-report.sliver_widths, kind="stable")
-    slivers = _pair_table(model, "Slivers dropped", "width", report.slivers[widest], report.sliver_widths[widest])
-    unchecked = _pair_table(model, "Not checked for overlap", "", report.unchecked, None)
-    lines = [*near, *slivers, *unchecked]
-    if len(report.isolated):
-        lines += sentence(f"Blocks without any contact: {_names(model, report.isolated, MOST_ROWS)}.")
-    for part in report.unsupported[:MOST_ROWS]:
-        lines += sentence(f"Unsupported: {counted(len(part), 'block')}, {_names(model, part, MOST_NAMED)}.")
-    return [*heading("Found by the search"), *lines] if lines else []
-
-
-def _by_joint(model: Model, contacts: Contacts) -> list[str]:
-    points = np.diff(contacts.point_start)
-    rows = []
-    for row, name in enumerate(contacts.joint_names):
-        chosen = contacts.joints == row
-        area = number(float(contacts.areas[chosen].sum()))
-        rows.append([name, str(int(chosen.sum())), str(int(points[chosen].sum())), area])
-    rows.append(["total", str(len(contacts)), str(len(contacts.points)), number(float(contacts.areas.sum()))])
-    return table(["joint law", "interfaces", "points", f"area [{model.units.length}2]"], rows)
-
-
-def _counts(model: Model, contacts: Contacts) -> list[str]:
-    """Every count, zero or not: that nothing was missed is a finding too."""
-    report, length = contacts.report, model.units.length
-    on_ground = int((contacts.bodies >= len(model.blocks)).any(axis=1).sum())
-    lines = entry("interfaces between blocks", str(len(contacts) - on_ground))
-    lines += entry("interfaces on ground", str(on_ground))
-    if len(contacts):
-        least, most = number(float(contacts.areas.min())), number(float(contacts.areas.max()))
-        lines += entry("least, greatest area", f"{least}, {most} {length}2")
-        widest = float(np.abs(contacts.gaps).max())
-        if widest > 1e-9 * float(model.blocks.sizes.max()):
-            lines += entry("greatest gap or overlap", f"{small(widest)} {length}")
-    unsupported = sum(len(part) for part in report.unsupported)
-    parts = f", {counted(len(report.unsupported), 'part')}" if unsupported else ""
-    glued = f": {glue_words(report, solid_sizes(contacts.solid_of_block))}" if len(report.glued) else ""
-    for name, count, rest in (
-        ("near misses", len(report.near_misses), ""),
-        ("slivers dropped", len(report.slivers), ""),
-        ("overlapping blocks", len(report.overlaps), ""),
-        ("not checked for overlap", len(report.unchecked), ""),
-        ("blocks without contact", len(report.isolated), ""),
-        ("unsupported blocks", unsupported, parts),
-        ("between fixed bodies (ignored)", report.fixed_contacts, ""),
-        ("open joints (ignored)", report.open_interfaces, ""),
-        ("internal interfaces (glued)", len(report.glued), glued),
-    ):
-        lines += entry(name, f"{count or 'none'}{rest}")
-    return lines
-
-
-def _pair_table(model: Model, title: str, measure: str, pairs: IntArray, relative: FloatArray | None) -> list[str]:
-    """Pairs of bodies with a length each; the first of them only where there are many."""
-    if not len(pairs):
-        return []
-    shown = pairs[:MOST_ROWS]
-    rows = [_pair_row(model, pair, None if relative is None else float(relative[i])) for i, pair in enumerate(shown)]
-    head = ["bodies", *([f"{measure} [{model.units.length}]", "over block size"] if measure else [])]
-    return [*sentence(f"{title}:"), *long_table(head, rows, len(pairs))[1:]]
-
-
-def _pair_row(model: Model, pair: IntArray, relative: float | None) -> list[str]:
-    names = "/".join(model.body_name(body) for body in pair.tolist())
-    if relative is None:
-        return [names]
-    size = min(float(model.blocks.sizes[body]) for body in pair.tolist() if body < len(model.blocks))
-    return [names, f"{relative * size:.3g}", f"{relative:.2g}"]
-
-
-def _names(model: Model, blocks: Iterable[int] | IntArray, most: int) -> str:
-    chosen = [int(block) for block in blocks]
-    more = f" and {len(chosen) - most} more" if len(chosen) > most else ""
-    return ", ".join(model.blocks.name(block) for block in chosen[:most]) + more
+    return [ListingSection("Remarks", paragraphs(*map(str, notices)))] if notices else []

@@ -9,7 +9,8 @@ import numpy as np
 
 from mbla.arrays import evenly
 from mbla.model.model import LoadCase, Model
-from mbla.results.listing.text import MOST_ROWS, counted, full_sentence, long_table, number, sentence, small, within
+from mbla.results.listing.blocks import MOST_ROWS, Block, paragraphs, table_of
+from mbla.results.listing.text import counted, full_sentence, number, small, within
 from mbla.results.listing.verdict_words import load_factor_words
 from mbla.results.outcome import curve_residual, ultimate_displacement
 from mbla.results.results import CaseResult
@@ -126,7 +127,7 @@ def curve_verdict(case: CaseResult, length: str) -> str:
     return f"{name}: {rough} of {len(residuals)} {steps} equilibrium or the joint law by up to {worst:.1g}."
 
 
-def curve_lines(model: Model, case: CaseResult) -> list[str]:
+def curve_blocks(model: Model, case: CaseResult) -> list[Block]:
     """The capacity curve: a sentence, and a table of steps evenly chosen; nothing without a pushover."""
     curve, units = case.solution.further.pushover.curve, model.units
     if not curve:
@@ -164,7 +165,7 @@ def curve_lines(model: Model, case: CaseResult) -> list[str]:
         says.append(
             "Before a step that is marked jump no equilibrium is nearby: the structure moves in time to its next rest."
         )
-    return ["", *(line for words in says for line in sentence(words)), *long_table(head, rows, len(curve))[1:]]
+    return [*paragraphs(*says), *table_of(head, rows, total=len(curve))]
 
 
 SMALL_ENERGY = 1e-6

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 
-from mbla.results.listing.text import number, sentence, table
+from mbla.results.listing.blocks import Block, Paragraph, apart, table_of
+from mbla.results.listing.text import number
 from mbla.results.outcome import result_of
 from mbla.results.results import CaseResult
 from mbla.solution.further.sensitivity.slopes import Side, Slope
@@ -27,7 +28,7 @@ ROUNDING = 1e-7
 """Elasticity below which a slope is nothing but rounding."""
 
 
-def sensitivity_lines(case: CaseResult) -> list[str]:
+def sensitivity_blocks(case: CaseResult) -> list[Block]:
     """A row for each parameter that the deck asks for; nothing where it asks for none."""
     slopes, associative = case.solution.further.sensitivity, case.solution.associative
     if not slopes or associative is None:
@@ -47,7 +48,7 @@ def sensitivity_lines(case: CaseResult) -> list[str]:
     if case.solution.flow_rule != "associative":
         says += THE_SAME if same else OF_ANOTHER
     head = ["parameter", "value", "slope", "elasticity", ""]
-    return ["", *sentence(f"{says}."), "", *table(head, rows), "", *sentence(MEANING)]
+    return [Paragraph(f"{says}."), *apart(table_of(head, rows)), *apart([Paragraph(MEANING)])]
 
 
 def _figure(value: float, slope: Slope) -> str:

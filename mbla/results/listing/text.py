@@ -1,74 +1,70 @@
-"""Fixed-width text: sections, wrapped sentences, name-value lines and tables, none wider than a listing may be.
-
-A printed line is a :class:`Line`: text that knows the :class:`Block` it is a line of. The listing joins lines, the
-report asks for their blocks: neither can say what the other does not.
-"""
+"""Blocks as fixed-width text: sections, wrapped sentences, name-value lines and tables, none wider than ``WIDTH``."""
 
 from __future__ import annotations
 
 import math
 import textwrap
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
 from mbla.questions.figures import significant
-
-
-@dataclass(frozen=True)
-class Block:
-    """A part of a page.
-
-    kind   : ``title``, ``paragraph``, ``entries`` (names and values) or ``table``
-    text   : of a title or paragraph, caption of a table
-    rows   : cells, not wrapped
-    left   : columns of a table that are words; the others are figures
-    detail : a paragraph belongs to what stands above it
-    """
-
-    kind: str
-    text: str = ""
-    rows: tuple[tuple[str, ...], ...] = ()
-    head: tuple[str, ...] = ()
-    left: int = 0
-    detail: bool = False
-
-
-class Line(str):
-    """One line of text with the block that it is a line of."""
-
-    __slots__ = ("block",)
-    block: Block
-
-    def __new__(cls, text: str, block: Block) -> Line:
-        """Text as printed, and what it is a line of."""
-        line = super().__new__(cls, text)
-        line.block = block
-        return line
-
-
-# --- Fixed-width text -----------------------------------------------------------------------------------------------
-
+from mbla.results.listing.blocks import Block, Facts, ListingSection, Paragraph, WordTable
 
 WIDTH = 100
 INDENT = "  "
-MOST_ROWS = 20
-"""of a table; the result files hold all of them"""
+DETAIL = 2 * INDENT
+
+
+def text_of(lines: Iterable[str]) -> str:
+    """Lines without blanks at their ends, with a newline at the end of each."""
+    return "\n".join(line.rstrip() for line in lines) + "\n"
+
+
+def section_lines(sections: Iterable[ListingSection]) -> list[str]:
+    """Sections below each other, each under its title."""
+    return [line for each in sections for line in (*heading(each.title), *lines_of(each.blocks))]
+
+
+def lines_of(blocks: Iterable[Block]) -> list[str]:
+    """Blocks below each other."""
+    lines: list[str] = []
+    for block in blocks:
+        match block:
+            case Paragraph():
+                lines += sentence(block.text, DETAIL if block.detail else "" if block.flush else INDENT)
+            case Facts():
+                lines += _fact_lines(block)
+            case WordTable():
+                lines += _table_lines(block)
+            case _:
+                lines.append("")
+    return lines
+
+
+def _fact_lines(facts: Facts) -> list[str]:
+    lines, indent = sentence(facts.caption), INDENT * bool(facts.caption)
+    for fact in facts.rows:
+        lines += entry(indent + fact.name, fact.value)
+        lines += [line for note in fact.notes for line in sentence(note, DETAIL)]
+    return lines
+
+
+def _table_lines(block: WordTable) -> list[str]:
+    caption = sentence(f"{block.caption}:", "" if block.flush else INDENT) if block.caption else []
+    more = sentence(f"and {block.left_out} more; the result files hold them all") if block.left_out else []
+    return [*caption, *table(block.head, block.rows, block.left), *more]
 
 
 def heading(text: str) -> list[str]:
     """A section title with a rule under it, and an empty line before it."""
-    block = Block("title", text)
-    return ["", Line(text, block), Line("-" * min(len(text), WIDTH), block)]
+    return ["", text, "-" * min(len(text), WIDTH)]
 
 
 def sentence(text: str, indent: str = INDENT) -> list[str]:
     """Text broken at WIDTH; line breaks and runs of spaces in it count as single spaces."""
     words = " ".join(text.split())
-    block = Block("paragraph", words, detail=len(indent) > len(INDENT))
-    lines = textwrap.wrap(words, WIDTH, initial_indent=indent, subsequent_indent=indent + INDENT)
-    return [Line(line, block) for line in lines]
+    return textwrap.wrap(words, WIDTH, initial_indent=indent, subsequent_indent=indent + INDENT)
 
 
 def full_sentence(text: str) -> str:
@@ -86,11 +82,8 @@ def entry(name: str, value: str) -> list[str]:
     label = f"{INDENT}{name}"
     if len(label) + 1 < column:
         lead = f"{label:<{column}}"
-        lines = textwrap.wrap(value, WIDTH, initial_indent=lead, subsequent_indent=" " * column) or [lead.rstrip()]
-    else:
-        lines = [label, *textwrap.wrap(value, WIDTH, initial_indent=" " * column, subsequent_indent=" " * column)]
-    block = Block("entries", rows=((name.strip(), value),))
-    return [Line(line, block) for line in lines]
+        return textwrap.wrap(value, WIDTH, initial_indent=lead, subsequent_indent=" " * column) or [lead.rstrip()]
+    return [label, *textwrap.wrap(value, WIDTH, initial_indent=" " * column, subsequent_indent=" " * column)]
 
 
 def table(head: Sequence[str], rows: Iterable[Sequence[str]], left: int = 1) -> list[str]:
@@ -103,16 +96,7 @@ def table(head: Sequence[str], rows: Iterable[Sequence[str]], left: int = 1) -> 
     excess = len(INDENT) + sum(widths) + 2 * (len(widths) - 1) - WIDTH
     if excess > 0:
         widths[0] = max(8, widths[0] - excess)
-    block = Block("table", "", tuple(tuple(line) for line in lines[1:]), tuple(lines[0]), left)
-    return [Line(_row(line, widths, left), block) for line in lines]
-
-
-def long_table(head: Sequence[str], rows: Sequence[Sequence[str]], total: int, left: int = 1) -> list[str]:
-    """A table after an empty line, and below it how many of ``total`` rows are left out; nothing without rows."""
-    if not rows:
-        return []
-    more = sentence(f"and {total - len(rows)} more; the result files hold them all") if total > len(rows) else []
-    return ["", *table(head, rows, left), *more]
+    return [_row(line, widths, left) for line in lines]
 
 
 def _row(cells: Sequence[str], widths: Sequence[int], left: int) -> str:

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Sequence
+from dataclasses import dataclass
 
 from mbla.errors import Notice
 from mbla.results.explanations import Explanation, explanations
 from mbla.results.listing.answers import answer_columns, bound_figures, status_words
+from mbla.results.listing.blocks import Block
 from mbla.results.listing.listing import case_sections
-from mbla.results.listing.text import Block, Line
 from mbla.results.outcome import case_notices, result_of
 from mbla.results.report.figures import Figures
 from mbla.results.results import CaseResult, Results
@@ -35,30 +35,6 @@ def notice_kinds(notices: Sequence[Notice]) -> list[NoticeKind]:
         NoticeKind(severity, identifier, tuple(texts), explanations().get(identifier))
         for (severity, identifier), texts in messages.items()
     ]
-
-
-def blocks_of(lines: Iterable[str]) -> list[Block]:
-    """Blocks of lines in their order, each once; nothing that the lines say is left out.
-
-    A sentence that ends in a colon becomes the caption of the table below it, a detail below an entry joins its value.
-    """
-    blocks: list[Block] = []
-    seen = None
-    for line in lines:
-        block = line.block if isinstance(line, Line) else Block("paragraph", line.strip())
-        if block is seen or not line.strip():
-            continue
-        seen, last = block, blocks[-1] if blocks else Block("")
-        if block.kind == last.kind == "entries":
-            blocks[-1] = replace(last, rows=(*last.rows, *block.rows))
-        elif block.detail and last.kind == "entries":
-            name, value = last.rows[-1]
-            blocks[-1] = replace(last, rows=(*last.rows[:-1], (name, f"{value}\n{block.text}")))
-        elif block.kind == "table" and last.kind == "paragraph" and last.text.endswith(":"):
-            blocks[-1] = replace(block, text=last.text[:-1])
-        else:
-            blocks.append(block)
-    return blocks
 
 
 # --- A load case in a report -----------------------------------------------------------------------------------------
@@ -105,8 +81,8 @@ def case_content(results: Results, case: CaseResult, number: int, figures: Figur
         status=status_words(case.status),
         tone=tone_of(case),
         alarm=alarm_of(case),
-        words=blocks_of(verdict_section.lines),
-        parts=[Part(f"{key}-{o.title.lower().replace(' ', '-')}", o.title, blocks_of(o.lines)) for o in others],
+        words=verdict_section.blocks,
+        parts=[Part(f"{key}-{o.title.lower().replace(' ', '-')}", o.title, o.blocks) for o in others],
         figures=figures,
         warnings=tuple(str(notice) for notice in case_notices(case)),
         view=view,

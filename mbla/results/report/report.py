@@ -18,12 +18,13 @@ from typing import Any
 from mbla import __version__
 from mbla.errors import FileError, UsageError
 from mbla.results.disk import write_complete
-from mbla.results.listing.answers import series_lines
-from mbla.results.listing.model_words import contact_lines, finding_lines, model_lines, settings_lines
+from mbla.results.listing.answers import series_section
+from mbla.results.listing.contact_words import contact_section, finding_sections
+from mbla.results.listing.model_words import model_sections, settings_section
 from mbla.results.listing.text import counted, number
 from mbla.results.listing.verdict_words import bound_words, reasons, verdict
 from mbla.results.outcome import notices_of
-from mbla.results.report.content import CaseContent, blocks_of, case_content, notice_kinds, verdict_table
+from mbla.results.report.content import CaseContent, case_content, notice_kinds, verdict_table
 from mbla.results.report.figures import Figures, case_figures, model_figures, series_figures
 from mbla.results.results import CaseResult, Results
 from mbla.results.series import chosen_cases, detailed_cases, series_of
@@ -110,14 +111,11 @@ def _content(results: Results, shown: Results, detailed: Results, cases: list[Ca
         "verdict_words": [_in_words(detailed, case) for case in detailed.cases],
         "left_out": f"{counted(left_out, 'load case')} of the deck not shown here" if left_out else "",
         "cases": cases,
-        "series": [
-            (blocks_of(series_lines(model, series)), series_figures(shown, series)) for series in series_of(shown.cases)
-        ],
+        "series": [(series_section(model, series), series_figures(shown, series)) for series in series_of(shown.cases)],
         "model_figures": model_figures(shown, cases[0].figures.view if cases else None),
-        "model": blocks_of(model_lines(model)),
-        "contacts": blocks_of([*contact_lines(model, contacts), *finding_lines(model, contacts.report)]),
+        "model": [*model_sections(model), contact_section(model, contacts), *finding_sections(model, contacts.report)],
         "notices": notice_kinds(notices_of(shown)),
-        "settings": blocks_of(settings_lines(results)),
+        "settings": settings_section(results),
         "provenance": results.provenance,
         "time": {stage: number(round(seconds, 3)) for stage, seconds in results.time.items()},
         "exit_code": results.exit_code,

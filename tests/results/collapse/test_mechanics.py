@@ -22,7 +22,8 @@ from mbla.results.collapse.mechanics import (
     work_of,
 )
 from mbla.results.collapse.thrust import curvature_sides
-from mbla.results.listing.forces import work_lines
+from mbla.results.listing.forces import work_blocks
+from mbla.results.listing.text import lines_of
 from mbla.solution.solution import Mechanics
 from tests.results.synthetic import (
     cuboids,
@@ -198,7 +199,7 @@ def test_shares_of_joint_laws_and_groups_sum_to_the_whole() -> None:
 
 def words(model: Any, contacts: Any, mechanics: Mechanics) -> str:
     work = work_of(model, contacts, CASE, mechanics)
-    return " ".join(" ".join(work_lines(CASE, work)).split())
+    return " ".join(" ".join(lines_of(work_blocks(CASE, work))).split())
 
 
 def test_work_in_words() -> None:

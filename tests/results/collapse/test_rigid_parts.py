@@ -8,7 +8,7 @@ from mbla.assembly.rigid_bodies import rigid_bodies
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import Model
 from mbla.results.collapse.rigid_parts import moving_share, part_motions, parts_of_one_twist, reach, rigid_parts
-from mbla.results.listing.mechanism_words import part_lines
+from mbla.results.listing.mechanism_words import part_table
 from tests.results.synthetic import cuboids, horizontal_contacts, tower_contacts, tower_model
 
 
@@ -65,7 +65,7 @@ def test_nothing_moves_nothing_but_rest() -> None:
     parts = rigid_parts(model, rigid_bodies(model, contacts), still)
     assert parts.tolist() == [0, 0, 0]
     assert part_motions(model, parts, still) == ()
-    assert part_lines(model, ()) == []
+    assert part_table(model, ()) == []
 
 
 def test_blocks_without_contact_move_alone() -> None:

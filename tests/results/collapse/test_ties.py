@@ -11,7 +11,8 @@ from mbla.results.collapse.collapse import collapse_of
 from mbla.results.collapse.mechanics import reactions_of
 from mbla.results.collapse.ties import TieState, tie_rows
 from mbla.results.findings import found_notices
-from mbla.results.listing.tie_words import tie_force_lines
+from mbla.results.listing.text import lines_of
+from mbla.results.listing.tie_words import tie_force_blocks
 from tests.analytic.test_ties import SLENDER, WEIGHT
 from tests.line import case_of, line_of
 from tests.model.test_fill_restraint import DECK as WEDGE
@@ -53,7 +54,7 @@ def test_fill_is_at_a_limit_and_no_tie(case: int, state: TieState, count: tuple[
         each for each in reactions_of(model, contacts, result.load_case, mechanics) if each.support == "fill on faces"
     )
     assert soil.wrench[0] == pytest.approx(row.force, rel=1e-9)
-    words = " ".join(" ".join(tie_force_lines(model, mechanics)).split())
+    words = " ".join(" ".join(lines_of(tie_force_blocks(model, mechanics))).split())
     assert f"passive limit on {count[0]} of 1 face, at its active limit on {count[1]}" in words
     assert " tie" not in words
 

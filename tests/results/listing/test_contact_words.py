@@ -5,13 +5,14 @@ from typing import Any
 import numpy as np
 
 from mbla.contacts.contacts import ContactReport
-from mbla.results.listing.model_words import contact_lines, finding_lines
+from mbla.results.listing.contact_words import contact_section, finding_sections
+from mbla.results.listing.text import section_lines
 from tests.results.synthetic import empty_report, tower_contacts, tower_model
 
 
 def findings(**changes: Any) -> str:
     report: ContactReport = replace(empty_report(), **changes)
-    return "\n".join(finding_lines(tower_model(), report))
+    return "\n".join(section_lines(finding_sections(tower_model(), report)))
 
 
 def test_counts_of_what_was_found() -> None:
@@ -23,7 +24,7 @@ def test_counts_of_what_was_found() -> None:
         isolated=np.array([2]),
     )
     contacts = replace(tower_contacts(), report=report, gaps=np.array([0.0, -0.002]))
-    text = "\n".join(contact_lines(tower_model(), contacts))
+    text = "\n".join(section_lines([contact_section(tower_model(), contacts)]))
     assert re.search(r"slivers dropped +1\n", text)
     assert re.search(r"blocks without contact +1\n", text)
     assert re.search(r"unsupported blocks +2, 1 part\n", text)

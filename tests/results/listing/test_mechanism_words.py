@@ -10,8 +10,9 @@ import numpy as np
 from mbla.assembly.assembly import Assembly
 from mbla.contacts.contacts import Contacts
 from mbla.results.collapse.collapse import collapse_of, failure_of
-from mbla.results.listing.mechanism_words import failure_sentences, mechanism_lines, mechanism_summary
-from mbla.results.listing.text import MOST_ROWS, WIDTH
+from mbla.results.listing.blocks import MOST_ROWS
+from mbla.results.listing.mechanism_words import failure_sentences, mechanism_blocks, mechanism_summary
+from mbla.results.listing.text import WIDTH, lines_of
 from mbla.solution.solution import ContactMode, Mechanics
 from mbla.solution.verification.statics import contact_velocities
 from tests.line import line_of_file, verified
@@ -74,7 +75,7 @@ def sliding_brick() -> Mechanics:
 def tables(contacts: Contacts, mechanics: Mechanics) -> str:
     assembly = Assembly(MODEL, contacts)
     collapse = collapse_of(assembly, CASE, mechanics)
-    return words(mechanism_lines(assembly, CASE, failure_of(MODEL, contacts, collapse, mechanics)))
+    return words(lines_of(mechanism_blocks(assembly, CASE, failure_of(MODEL, contacts, collapse, mechanics))))
 
 
 def summary(contacts: Contacts, mechanics: Mechanics) -> str:
@@ -109,7 +110,7 @@ def test_long_lists_start_with_what_moves_most_and_say_what_they_leave_out() -> 
     assembly = Assembly(model, contacts)
     collapse = collapse_of(assembly, case, mechanics)
     failure = failure_of(model, contacts, collapse, mechanics)
-    lines = mechanism_lines(assembly, case, failure)
+    lines = lines_of(mechanism_blocks(assembly, case, failure))
     assert max(map(len, lines)) <= WIDTH
     start = next(i for i, line in enumerate(lines) if line.startswith("  sliding planes"))
     table = lines[start + 1 :]

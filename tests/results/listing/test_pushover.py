@@ -7,7 +7,8 @@ from dataclasses import replace
 import pytest
 
 from mbla.model import Model
-from mbla.results.listing.pushover import curve_lines, curve_words, no_curve_words
+from mbla.results.listing.pushover import curve_blocks, curve_words, no_curve_words
+from mbla.results.listing.text import lines_of
 from mbla.results.results import CaseResult
 from tests.line import BLOCK, HEAD, case_of
 from tests.results.changed_files import with_curve
@@ -50,7 +51,7 @@ def test_a_jump_is_counted_in_the_row_behind_it(drawn_away: tuple[Model, CaseRes
 
 
 def test_jumps_are_said_and_marked(drawn_away: tuple[Model, CaseResult]) -> None:
-    lines = curve_lines(*drawn_away)
+    lines = lines_of(curve_blocks(*drawn_away))
     words = words_of(lines)
     assert "; 1 jump, the first behind 0.08 m" in words
     assert "no equilibrium is nearby: the structure moves in time to its next rest" in words
@@ -62,7 +63,7 @@ def test_a_row_behind_a_jump_is_shown_however_many_rows_there_are(rocking: tuple
     last = case.solution.further.pushover.curve[-1]
     curve = tuple(replace(last, step=row, jumps=int(row == 50), new_mechanism=False) for row in range(100))
     case = with_curve(case, curve)
-    assert [line.split()[0] for line in curve_lines(model, case) if line.endswith(" jump")] == ["50"]
+    assert [line.split()[0] for line in lines_of(curve_blocks(model, case)) if line.endswith(" jump")] == ["50"]
 
 
 def test_steps_that_were_not_found_are_said(rocking: tuple[Model, CaseResult]) -> None:
@@ -72,7 +73,7 @@ def test_steps_that_were_not_found_are_said(rocking: tuple[Model, CaseResult]) -
 
 
 def test_a_curve_without_jumps_says_nothing_of_them(rocking: tuple[Model, CaseResult]) -> None:
-    assert "jump" not in words_of(curve_lines(*rocking))
+    assert "jump" not in words_of(lines_of(curve_blocks(*rocking)))
 
 
 def test_the_stiffness_of_joints_is_printed_with_its_unit(rocking: tuple[Model, CaseResult]) -> None:
@@ -80,7 +81,7 @@ def test_the_stiffness_of_joints_is_printed_with_its_unit(rocking: tuple[Model, 
     assert case.solution.further.pushover.rows is not None
     across, along = case.solution.further.pushover.rows.stiffness
     words = f"as stiff as {across:.3g} N/m3 across and {along:.3g} along"
-    assert words in words_of(curve_lines(model, case))
+    assert words in words_of(lines_of(curve_blocks(model, case)))
     assert words not in curve_words(model, case)  # of a plane structure nothing depends on it
 
 
@@ -89,11 +90,11 @@ def test_in_space_the_stiffness_stands_with_the_figures(rocking: tuple[Model, Ca
     assert case.solution.size is not None
     space = replace(case, solution=replace(case.solution, size=replace(case.solution.size, dimension=3)))
     assert "as stiff as" in curve_words(model, space)
-    assert words_of(curve_lines(model, space)).count("as stiff as") == 1
+    assert words_of(lines_of(curve_blocks(model, space))).count("as stiff as") == 1
 
 
 def test_each_row_has_its_balance_of_energy(rocking: tuple[Model, CaseResult]) -> None:
-    lines = curve_lines(*rocking)
+    lines = lines_of(curve_blocks(*rocking))
     (head,) = (line for line in lines if line.split()[:1] == ["step"])
     end = head.index("left") + len("left")
     left = [float(line[:end].split()[-1]) for line in lines if line.split()[:1] in (["1"], ["2"])]

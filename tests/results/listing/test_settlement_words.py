@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from mbla.results.listing.answers import answer_lines
+from mbla.results.listing.answers import answer_facts
 from mbla.run import RunOptions, run
 
 ARCH = """mbla: 1
@@ -27,7 +27,7 @@ def test_what_a_negative_reaction_means(tmp_path: Path, sense: str, negative: bo
     path = tmp_path / "arch.yaml"
     path.write_text(ARCH.replace("SENSE", sense))
     results = run(path, RunOptions())
-    lines = answer_lines(results.model, results.cases[0])
-    told = [line for line in lines if "negative: the support must be pushed" in line]
+    facts = answer_facts(results.model, results.cases[0])
+    told = [fact for fact in facts if "negative: the support must be pushed" in fact.value]
     assert len(told) == negative
-    assert ("-" in lines[0].split("N")[0]) == negative
+    assert ("-" in facts[0].value.split("N")[0]) == negative

@@ -6,14 +6,15 @@ from dataclasses import replace
 
 from mbla.program.reductions import ReductionStep, StepState
 from mbla.program.reductions.steps import REDUCTIONS
+from mbla.results.listing.blocks import MOST_ROWS, Fact
 from mbla.results.listing.figures import (
-    path_lines,
-    program_lines,
+    path_blocks,
+    program_blocks,
+    solver_facts,
     solver_json,
-    solver_lines,
 )
-from mbla.results.listing.model_words import FOUND, reduction_lines
-from mbla.results.listing.text import MOST_ROWS
+from mbla.results.listing.model_words import FOUND, reduction_facts
+from mbla.results.listing.text import lines_of
 from mbla.results.record.json_record import results_json
 from mbla.results.results import Results
 from mbla.solution.solution import PathPoint, ProgramRecord
@@ -48,23 +49,22 @@ def test_each_name_once_in_the_order_of_the_programs() -> None:
         "used": ["mbla", "clarabel"],
         "factorization": ["cholmod", "qdldl"],
     }
-    assert " ".join(" ".join(solver_lines(replace(FIRST, programs=programs))).split()) == (
-        "solver mbla (cholmod), clarabel (qdldl), mbla (qdldl)"
-    )
+    said = [Fact("solver", "mbla (cholmod), clarabel (qdldl), mbla (qdldl)")]
+    assert solver_facts(replace(FIRST, programs=programs)) == said
 
 
 def test_a_case_without_cone_programs_has_no_solver() -> None:
     results = with_programs(("exact step", "", ""))
-    assert solver_lines(results.cases[0].solution) == []
+    assert solver_facts(results.cases[0].solution) == []
     assert results_json(results)["cases"][0]["solver"] == {"asked": "auto", "used": [], "factorization": []}
 
 
 def test_a_long_sequence_says_what_is_left_out() -> None:
-    assert program_lines(replace(FIRST, programs=())) == []
+    assert program_blocks(replace(FIRST, programs=())) == []
     programs = tuple(replace(FIRST.programs[1], program=i + 1) for i in range(MOST_ROWS + 7))
-    lines = program_lines(replace(FIRST, programs=programs))
-    assert f"{MOST_ROWS + 7} programs" in lines[1]
-    assert sum(line.split()[0].isdigit() for line in lines[3:]) == MOST_ROWS
+    lines = lines_of(program_blocks(replace(FIRST, programs=programs)))
+    assert f"{MOST_ROWS + 7} programs" in lines[0]
+    assert sum(line.split()[0].isdigit() for line in lines[2:]) == MOST_ROWS
     assert "and 7 more" in lines[-1]
 
 
@@ -77,9 +77,8 @@ def test_every_reduction_has_its_words() -> None:
 
 def test_a_line_says_what_was_found_and_what_is_left() -> None:
     off = ReductionStep("mirror", StepState.OFF, 0, STEP.after, STEP.after)
-    assert [line.split() for line in reduction_lines((STEP, off))] == [
-        ["reduction,", "parts", "2", "parts", "solved", "apart;", "12", "of", "12", "velocities", "left,", "8", "cones"]
-    ]
+    words = "2 parts solved apart; 12 of 12 velocities left, 8 cones"
+    assert reduction_facts((STEP, off)) == [Fact("reduction, parts", words)]
 
 
 # ---  ---------------------------------------------------------------------------------------------------------------
@@ -89,14 +88,14 @@ MODEL = tower_model()
 CASE = tower_results().cases[0]
 
 
-def lines_of(*path: PathPoint) -> list[str]:
-    return path_lines(MODEL, replace(CASE, solution=replace(CASE.solution, path=path)))
+def lines_of_path(*path: PathPoint) -> list[str]:
+    return lines_of(path_blocks(MODEL, replace(CASE, solution=replace(CASE.solution, path=path))))
 
 
 def test_a_long_path_is_thinned_but_keeps_its_greatest_load_and_ends() -> None:
     factors = [0.001 * i for i in range(300)]
     factors[150] = 1.0
-    lines = lines_of(*(PathPoint(i, 0.1 * i, factor, i, 0, balanced=True) for i, factor in enumerate(factors)))
+    lines = lines_of_path(*(PathPoint(i, 0.1 * i, factor, i, 0, balanced=True) for i, factor in enumerate(factors)))
     rows = [line.split()[0] for line in lines if line.split() and line.split()[0].isdigit()]
     assert len(rows) == MOST_ROWS
     assert {"0", "150", "299"} <= set(rows)

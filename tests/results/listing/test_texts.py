@@ -23,7 +23,7 @@ from mbla.results.listing.history_words import path_words
 from mbla.results.listing.listing import case_sections, listing, verification_lines
 from mbla.results.listing.model_words import check_listing
 from mbla.results.listing.summary import summary_lines
-from mbla.results.listing.text import WIDTH, sentence
+from mbla.results.listing.text import WIDTH, lines_of, sentence
 from mbla.results.provenance import CaseNeeds
 from mbla.results.results import CaseResult, PathAgain, Results
 from mbla.solution.solution import PathByStiffness, Standing, StandingResult, Status
@@ -146,7 +146,7 @@ def case_text(made: CaseResult) -> list[str]:
     assembly = Assembly(MODEL, RESULTS.contacts)
     made = replace(made, assessment=assessment_of(assembly, made))
     sections = case_sections(assembly, made)
-    lines = [line for each in sections if each.title in SHOWN for line in each.lines]
+    lines = [line for each in sections if each.title in SHOWN for line in lines_of(each.blocks)]
     return [*lines, "summary:", *summary_lines(replace(RESULTS, cases=(made,)))[2:]]
 
 

@@ -1,4 +1,4 @@
-"""Residuals judged exactly as the verification judges them, and lines of the listing as blocks of a page."""
+"""Residuals judged exactly as the verification judges them."""
 
 from dataclasses import replace
 
@@ -6,8 +6,6 @@ import numpy as np
 import pytest
 
 from mbla.results.listing.figures import residual_rows
-from mbla.results.listing.text import Block, entry, sentence, table
-from mbla.results.report.content import blocks_of
 from mbla.results.results import CaseResult
 from mbla.solution.solution import Checks
 from mbla.solution.verification.residuals import Residuals
@@ -58,22 +56,3 @@ def test_every_tolerance_has_its_row() -> None:
     assert set(tolerances("associative")) <= set(Checks.__dataclass_fields__)
     assert np.isnan(tower_results().cases[1].checks.gap)
     assert residual_rows(tower_results().cases[1]) == []
-
-
-# --- Lines of the listing as blocks of a page -----------------------------------------------------------------------
-
-
-def test_a_sentence_with_a_colon_is_the_caption_of_its_table() -> None:
-    lines = ["", *sentence("Hinges:"), *table(["interface", "at"], [["a/b", "1"], ["c/d", "2"]])]
-    assert blocks_of(lines) == [Block("table", "Hinges", (("a/b", "1"), ("c/d", "2")), ("interface", "at"), 1)]
-
-
-def test_entries_gather_and_take_their_details_along() -> None:
-    lines = [*entry("status", "solved"), *entry("stands", "yes"), *sentence("of itself", "    "), *entry("  x", "1")]
-    assert blocks_of(lines) == [Block("entries", rows=(("status", "solved"), ("stands", "yes\nof itself"), ("x", "1")))]
-
-
-def test_wrapped_lines_are_one_again() -> None:
-    words = "word " * 60 + "end"
-    assert blocks_of(sentence(words)) == [Block("paragraph", words)]
-    assert blocks_of(entry("name", words)) == [Block("entries", rows=(("name", words),))]

@@ -10,12 +10,13 @@ import pytest
 
 from mbla.errors import Message, Notice, UsageError
 from mbla.results.explanations import explanations
+from mbla.results.listing.blocks import Facts, ListingSection, Paragraph, WordTable
+from mbla.results.listing.contact_words import contact_section
 from mbla.results.listing.listing import case_sections
-from mbla.results.listing.model_words import contact_lines, model_lines, settings_lines
+from mbla.results.listing.model_words import model_sections, settings_section
 from mbla.results.listing.text import number
 from mbla.results.record.json_record import results_json
 from mbla.results.report import report
-from mbla.results.report.content import blocks_of
 from mbla.results.report.figures import Figure, Figures
 from mbla.results.report.report import report_html, report_path, write_report
 from mbla.results.results import CaseResult, Results
@@ -84,13 +85,21 @@ def test_no_part_of_it_comes_from_elsewhere(results: Results) -> None:
     assert policy.startswith("default-src 'none'; script-src 'none';")
 
 
-def said(page: Page, owner: Node, lines: list[str]) -> None:
-    """Everything that lines of the listing say stands in a part of the page: entries and rows as rows, cell by cell."""
+def said(page: Page, owner: Node, section: ListingSection) -> None:
+    """All that a section of the listing says stands in a part of the page: facts and rows as rows, cell by cell."""
     rows = [row for table in page.within(owner, "table") for row in page.rows(table)]
-    for block in blocks_of(lines):
-        assert block.text in owner.text
-        for row in (*([block.head] if block.head else []), *block.rows):
-            assert [" ".join(cell.split()) for cell in row] in rows
+    for block in section.blocks:
+        match block:
+            case Paragraph():
+                assert " ".join(block.text.split()) in owner.text
+            case Facts():
+                assert block.caption in owner.text
+                for fact in block.rows:
+                    assert [fact.name, " ".join(" ".join([fact.value, *fact.notes]).split())] in rows
+            case WordTable():
+                assert " ".join(block.caption.split()) in owner.text
+                for row in (block.head, *block.rows):
+                    assert [" ".join(cell.split()) for cell in row] in rows
 
 
 @pytest.mark.parametrize("results", [tower_results(), tower_results("associative"), full_results()])
@@ -99,10 +108,11 @@ def test_listing_and_report_say_the_same(results: Results) -> None:
     for i, case in enumerate(results.cases):
         owner = page.one("section", id=f"case-{i + 1}")
         for section in case_sections(results.assembly, case):
-            said(page, owner, section.lines)
+            said(page, owner, section)
     model = page.one("section", id="model")
-    said(page, model, [*model_lines(results.model)[3:], *contact_lines(results.model, results.contacts)])
-    said(page, page.one("section", id="provenance"), settings_lines(results))
+    for section in (*model_sections(results.model), contact_section(results.model, results.contacts)):
+        said(page, model, section)
+    said(page, page.one("section", id="provenance"), settings_section(results))
 
 
 def test_the_table_of_verdicts_has_the_figures_of_the_record() -> None:

@@ -13,7 +13,8 @@ import pytest
 import mbla
 from mbla.assembly.assembly import Assembly
 from mbla.results.hdf5.result_file import read_results_hdf5, write_results_hdf5
-from mbla.results.listing.geometric_safety import geometric_safety_lines
+from mbla.results.listing.geometric_safety import geometric_safety_blocks
+from mbla.results.listing.text import lines_of
 from mbla.results.outcome import case_notices
 from mbla.results.results import CaseResult
 from mbla.solution.further.further import Further
@@ -89,7 +90,7 @@ def test_a_block_on_its_middle_stands_on_a_point() -> None:
 def test_what_stands_on_its_middles_or_by_self_stress_is_not_called_safe() -> None:
     """A block on the ground; one between two others that only a thrust that nothing causes would hold."""
     _, upright = case_of(SAFE)
-    assert "size is no measure of safety" in " ".join(" ".join(geometric_safety_lines(upright)).split())
+    assert "size is no measure of safety" in " ".join(" ".join(lines_of(geometric_safety_blocks(upright))).split())
     between = SAFE.replace("min: [0, 0, 0]", "min: [0, 0, 1]").replace(
         "joints: {", "joints: {ground: {friction: 0.7}, "
     )
@@ -100,7 +101,9 @@ def test_what_stands_on_its_middles_or_by_self_stress_is_not_called_safe() -> No
 supports: [{ground: {z: 0}, joint: ground}]""",
     )
     _, jammed = case_of(between)
-    assert "It is no safety: from the stress-free" in " ".join(" ".join(geometric_safety_lines(jammed)).split())
+    assert "It is no safety: from the stress-free" in " ".join(
+        " ".join(lines_of(geometric_safety_blocks(jammed))).split()
+    )
     assert any("its geometric factor is no safety" in each.message for each in case_notices(jammed))
 
 
