@@ -134,7 +134,7 @@ def test_positions_of_a_travelling_load_are_one_way_and_the_arrows_of_the_worst(
         travel = standing_at(number, 3, np.array([0.2 * number, 0.5, 4.0]), 0.2 * number)
         loads = wrench([0, 0, -1], travel.points[0].tolist(), 1)
         load_case = replace(
-            case.load_case, name=f"train@{number}", live_load=loads, live=without_forces("f"), travel=travel
+            case.load_case, name=f"train@{number}", live_load=loads, live=(without_forces("f"),), travel=travel
         )
         solution = replace(case.solution, mechanics=replace(own, load_factor=factor))
         cases.append(replace(case, load_case=load_case, solution=solution))
