@@ -51,7 +51,7 @@ def without_tie_rows(ties: TieContacts, values: NDArray[Any]) -> NDArray[Any]:
 def with_tie_rows(ties: TieContacts, values: NDArray[Any], of_ties: FloatArray | None = None) -> NDArray[Any]:
     """The same with rows of the ties behind them.
 
-    of_ties : (k, ...) their first columns; nothing unless given
+    of_ties : (k, ...) their first columns; default: zero
     """
     rows = np.zeros((len(ties.rows), *values.shape[1:]), dtype=values.dtype)
     if of_ties is not None:

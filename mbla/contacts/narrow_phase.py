@@ -88,8 +88,8 @@ def find_patches(
 def judge(patches: Patches, tolerance: float, reach: float | None = None, overlap: float | None = None) -> Verdicts:
     """Sort common surfaces into contacts, slivers and near misses.
 
-    reach   : greatest gap of near misses, ten tolerances unless given
-    overlap : greatest depth at which blocks touch, that of gaps unless given
+    reach   : greatest gap of near misses; default: ten tolerances
+    overlap : greatest depth at which blocks touch; default: the tolerance of gaps
     """
     # Equality with the tolerance must not hang on the last digit.
     limit, depth = (each * (1 + 1e-9) + _ROUNDING for each in (tolerance, tolerance if overlap is None else overlap))

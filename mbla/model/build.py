@@ -204,7 +204,7 @@ def build_joints(deck: Deck, grounds: Sequence[Ground], interfaces: PrescribedIn
 
 
 def build_joint(name: str, law: JointLaw) -> Joint:
-    """Joint law with tangents for angles, and an unlimited compressive strength unless given."""
+    """Joint law with tangents for angles, and by default an unlimited compressive strength."""
     friction = law.friction
     if friction is None:
         assert law.friction_angle is not None  # a rule of the deck: one of friction and friction angle

@@ -17,7 +17,7 @@ from mbla.deck.text.tree import KeyPath
 from mbla.deck.units import Units
 from mbla.errors import DeckError, Fault, Finding, Message, Notice
 from mbla.model.blocks import amounts
-from mbla.model.blocks.generated import Generated, ItemRefused, Part, Site
+from mbla.model.blocks.generated import Generated, ItemContext, ItemRefused, Part
 from mbla.model.geometry.sheets import sheets
 from mbla.model.model import Ground
 from mbla.model.solids.blocks import Blocks, join_labels, labels_of
@@ -130,12 +130,12 @@ def density_of(material: Material, units: Units) -> float:
 def _generate(deck: Deck, block_item: BlockItem, path: KeyPath) -> Generated:
     """An item in the coordinates of the deck."""
     item = block_item.item
-    site = Site(
+    context = ItemContext(
         deck.contacts.tolerance, lambda below, name: deck.resolve_file((*path, *below), name), deck.units.length
     )
     with np.errstate(over="ignore", invalid="ignore"):  # coordinates that are not finite are refused by block
         kind = block_item.facts
-        generated = kind.generate(item, site)
+        generated = kind.generate(item, context)
         given = {name for part in generated.parts for name in part.labels}
         assert given <= {position.name for position in kind.positions}, f"{kind.name} gives {given}"
         transform = build_transform(item.transform)

@@ -210,7 +210,7 @@ def locked(
     """Hold the lock of ``path`` inside the block.
 
     shared   : others may hold it shared at the same time
-    busy     : what is said where another process holds it; unless given, who that is
+    busy     : message where another process holds it; default: who that is
     required : whether to refuse where there are no locks; without one nothing keeps others off
 
     Raises FileError where another process holds it, or the file system has no locks.

@@ -38,7 +38,7 @@ def sweep(
     set
         Values of the deck for every point, as of ``mbla.run``.
     output
-        Folder of the files; ``SWEEP.out`` next to the sweep file unless given.
+        Folder of the files; default: ``SWEEP.out`` next to the sweep file.
     jobs
         Processes of this machine.
     scheduler

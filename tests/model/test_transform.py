@@ -8,7 +8,7 @@ import pytest
 
 from mbla.deck.sections.placement import Repetition, TransformStep
 from mbla.model.blocks.arch import ArchItem, generate
-from mbla.model.blocks.generated import Generated, Part, Site
+from mbla.model.blocks.generated import Generated, ItemContext, Part
 from mbla.model.transform import AffineMap, build_transform, repetitions, transform_item
 from tests.model.shapes import L_OUTLINE, build_raw, prism, raw
 
@@ -103,7 +103,7 @@ def test_grounds_of_springers_move_along() -> None:
     item = ArchItem(
         material="stone", shape="semicircular", span=4.0, thickness=0.3, width=1.0, voussoirs=9, springers="ground"
     )
-    made = generate(item, Site(1e-3, lambda path, name: Path(name)))
+    made = generate(item, ItemContext(1e-3, lambda path, name: Path(name)))
     steps: list[dict[str, Any]] = [
         {"rotate": {"axis": (1, 1, 0), "angle": 35}},
         {"mirror": {"normal": (1, 2, 3)}},

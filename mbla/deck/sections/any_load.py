@@ -24,10 +24,10 @@ class HeightPattern(Section):
 
     along: Direction = Field((0.0, 0.0, 1.0), description="direction along which heights are measured, from the origin")
     base: Length | None = Field(
-        None, description="height of factor 0, as below it; lowest point of the blocks loaded unless given"
+        None, description="height of factor 0, as below it; default: lowest point of the loaded blocks"
     )
     top: Length | None = Field(
-        None, description="height of factor 1, as above it; highest point of the blocks loaded unless given"
+        None, description="height of factor 1, as above it; default: highest point of the loaded blocks"
     )
     points: list[tuple[Length, Number]] | None = Field(
         None,
@@ -54,9 +54,7 @@ class AnyLoad(Section):
 
     on: Selector | None = None
     through: Name | None = None
-    at: Point | None = Field(
-        None, description="point of application, carried with its moment; the centroid unless given"
-    )
+    at: Point | None = Field(None, description="point of application, carried with its moment; default: the centroid")
     pattern: HeightPattern | None = None
     factor: Number = Field(1.0, description="factor on the load")
     follows: bool = False

@@ -24,15 +24,15 @@ class GeometryFile(Section):
     )
     units: FileUnit | None = Field(
         None,
-        description="unit of length of the file, converted to the deck's; that of the header for "
-        "DXF, and the deck's own for others unless given",
+        description="unit of length of the file, converted to the deck's; default: the unit in "
+        "the header of a DXF file, the deck's own for others",
     )
     scale: PositiveNumber = Field(1.0, description="factor on the file's coordinates, besides the conversion of units")
     up: Literal["z", "y"] | None = Field(
         None,
-        description="axis of the file that points upwards; with y the file's x, y, z become x, z, -y of the deck. "
-        "z unless given",
+        description="axis of the file that points upwards; with y the file's x, y, z become x, z, -y of the deck; "
+        "default: z",
     )
     members: Names | None = Field(
-        None, description="objects, groups, layers or sets of the file to take, by name; all unless given"
+        None, description="objects, groups, layers or sets of the file to take, by name; default: all"
     )

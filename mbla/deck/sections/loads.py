@@ -57,10 +57,10 @@ def _shared_in_words() -> dict[str, str]:
     of_one = ", ".join(loads_that(lambda kind: kind.needs_block))
     on_fill, patterned = (", ".join(loads_that_take(key)) for key in ("through", "pattern"))
     return {
-        "on": f"{of_one}: the block; other kinds: the only blocks that they may act on, all unless given",
+        "on": f"{of_one}: the block; other kinds: the only blocks that they may act on; default: all",
         "through": f"{on_fill}: the fill on which they stand, straight over or under where they are drawn, and in "
         "which they spread; their forces are vertical",
-        "pattern": f"{patterned}: factor by height; 1 everywhere unless given",
+        "pattern": f"{patterned}: factor by height; default: 1 everywhere",
         "follows": "in a pushover: the load turns with its block, as a pressure does; else it keeps its direction. Of "
         f"{listed(loads_that_take('follows'), 'and')}",
     }
@@ -113,4 +113,4 @@ class AddedMass(Section):
 
     mass: PositiveMass = Field(description="the mass, all together")
     on: Selector = Field(description="blocks that share it in proportion to their volumes, at their centroids")
-    at: Point | None = Field(None, description="where it is, for a mass on one block; its centroid unless given")
+    at: Point | None = Field(None, description="place of a mass on one block; default: the centroid of the block")

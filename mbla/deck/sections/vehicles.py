@@ -7,8 +7,11 @@ from pydantic import Field
 from mbla.deck.quantities import Force, PositiveLength
 from mbla.deck.section import Section
 
-WIDTH = "each force is shared evenly over this length across the way of the vehicle, half to each side; unless given it"
-TOWARDS = "direction in which the blocks under it are sought; straight down in fill"
+WIDTH = (
+    "length across the way of the vehicle over which each force is shared evenly, half to each side; "
+    "default: it acts at a point"
+)
+TOWARDS = "direction from the load to the blocks under it; straight down in fill"
 DOWN = (0.0, 0.0, -1.0)
 
 
@@ -24,4 +27,4 @@ class Vehicle(Section):
 
     force: tuple[Force, Force, Force] = Field(description="force of the first axle")
     axles: list[Axle] = Field(default_factory=list, max_length=100, description="the axles behind it")
-    width: PositiveLength | None = Field(None, description=f"{WIDTH} acts at a point")
+    width: PositiveLength | None = Field(None, description=WIDTH)

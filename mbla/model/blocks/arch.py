@@ -36,7 +36,7 @@ from mbla.model.blocks.arches.sections import (
 from mbla.model.blocks.curves import Curve, named_curve
 from mbla.model.blocks.curves.shape_keys import SHAPES_WITH, CurveShape, range_of_rise, shape_keys
 from mbla.model.blocks.curves.spline import through
-from mbla.model.blocks.generated import Generated, GroundPart, ItemRefused, Part, Site
+from mbla.model.blocks.generated import Generated, GroundPart, ItemContext, ItemRefused, Part
 from mbla.model.blocks.item import SPRINGERS, SpringingItem
 from mbla.model.blocks.item_kind import ItemKind, register_item
 from mbla.model.solids.polyhedra import Polyhedra, prisms
@@ -79,7 +79,7 @@ class ArchItem(SpringingItem):
     )
     embrace: EmbraceAngle | None = Field(None, description="segmental: angle between the springing joints in degrees")
     side_angle: SideAngle | None = Field(
-        None, description="basket: angle of each side arc in degrees, 60 unless given, as wide as the middle one"
+        None, description="basket: angle of each side arc in degrees; default: 60, as wide as the middle one"
     )
     points: list[PlanePoint] | None = Field(
         None, min_length=3, description="points: [x, z] of the line from left to right, springings included"
@@ -143,7 +143,7 @@ def arch_points(arch: ArchItem) -> Iterator[Finding]:
             yield Finding("arch-shape", "is the same point as the one before", "points", number + 1)
 
 
-def generate(item: ArchItem, site: Site) -> Generated:
+def generate(item: ArchItem, context: ItemContext) -> Generated:
     """Voussoirs ring by ring, from left to right in each; with them piers, ground or fixed blocks at the springings.
 
     Raises

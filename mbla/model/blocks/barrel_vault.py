@@ -18,7 +18,7 @@ from mbla.deck.section import rule
 from mbla.errors import Finding
 from mbla.model.blocks.arches.haunches import Backing, backing_width, haunch_grounds, haunches, with_backing
 from mbla.model.blocks.arches.sections import ends_of, springer_polygons, springing_grounds, voussoir_polygons
-from mbla.model.blocks.generated import Generated, GroundPart, Part, Site
+from mbla.model.blocks.generated import Generated, GroundPart, ItemContext, Part
 from mbla.model.blocks.item import SPRINGERS
 from mbla.model.blocks.item_kind import ItemKind, register_item
 from mbla.model.blocks.vaults.vault import VaultItem, check_curve, vault_section
@@ -53,7 +53,7 @@ def vault_curve(vault: BarrelVaultItem) -> Iterator[Finding]:
     yield from check_curve(vault, vault.span)
 
 
-def generate(item: BarrelVaultItem, site: Site) -> Generated:
+def generate(item: BarrelVaultItem, context: ItemContext) -> Generated:
     """Units course by course from the left springing, along +y in each; haunches.
 
     Raises ItemRefused where haunches do not fit.

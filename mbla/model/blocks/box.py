@@ -10,7 +10,7 @@ from pydantic import Field
 from mbla.deck.quantities import Point, corners_in_order
 from mbla.deck.section import rule
 from mbla.errors import Finding
-from mbla.model.blocks.generated import Generated, Part, Site
+from mbla.model.blocks.generated import Generated, ItemContext, Part
 from mbla.model.blocks.item import Item
 from mbla.model.blocks.item_kind import ItemKind, register_item
 from mbla.model.solids.polyhedra import cuboids
@@ -29,7 +29,7 @@ def box_extent(box: BoxItem) -> Iterator[Finding]:
     yield from corners_in_order(box.min, box.max, "max")
 
 
-def generate(item: BoxItem, site: Site) -> Generated:
+def generate(item: BoxItem, context: ItemContext) -> Generated:
     """The cuboid between two corners."""
     return Generated((Part(cuboids(np.array([item.min]), np.array([item.max]))),))
 

@@ -18,7 +18,7 @@ from mbla.deck.quantities import Count, PositiveLength, SideAngle
 from mbla.deck.section import ROUNDING, Section, given, rule
 from mbla.errors import Finding
 from mbla.model.blocks.curves.shape_keys import CurveShape, range_of_rise, shape_keys
-from mbla.model.blocks.generated import Generated, Site
+from mbla.model.blocks.generated import Generated, ItemContext
 from mbla.model.blocks.item import Item
 from mbla.model.blocks.item_kind import ItemKind, register_item
 
@@ -49,7 +49,7 @@ class BridgeAbutments(Section):
 
     width: PositiveLength = Field(description="extent along x, outwards from the springing")
     height: PositiveLength | None = Field(
-        None, description="from the base to the springings; unless given the abutments start at the springings"
+        None, description="from the base to the springings; default: 0, the abutments start at the springings"
     )
     courses: Count | None = Field(None, description="number of courses below the springings; with height")
 
@@ -75,7 +75,7 @@ class BridgeItem(Item):
     spans: list[PositiveLength] = Field(min_length=1, description="clear span of each arch, from left to right")
     shape: CurveShape = Field(description="of every intrados; a segmental one is given by its rise")
     rise: Rises | None = Field(None, description="of the intrados: one for all spans or one for each; not semicircular")
-    side_angle: SideAngle | None = Field(None, description="basket: angle of each side arc in degrees, 60 unless given")
+    side_angle: SideAngle | None = Field(None, description="basket: angle of each side arc in degrees; default: 60")
     thickness: PositiveLength = Field(description="of the arches, along their joints")
     voussoirs: Counts = Field(description="number of voussoirs of each ring: one for all spans or one for each")
     rings: Count = Field(1, description="rings of equal thickness")
@@ -97,7 +97,7 @@ class BridgeItem(Item):
     backing: Count | None = Field(
         None, description="edges: number of courses, from the bottom, that are filled with blocks between the walls"
     )
-    parapets: BridgeParapets | None = Field(None, description="parapets on the spandrels; none unless given")
+    parapets: BridgeParapets | None = Field(None, description="parapets on the spandrels; default: none")
 
 
 OF_SPANDRELS = ("unit", "cover")
@@ -167,7 +167,7 @@ def bridge_across(bridge: BridgeItem) -> Iterator[Finding]:
         yield Finding("out-of-bounds", f"must be <= {half:g}, half the width", "parapets", "thickness")
 
 
-def generate(item: BridgeItem, site: Site) -> Generated:
+def generate(item: BridgeItem, context: ItemContext) -> Generated:
     """Voussoirs span by span, piers and abutments, springers, spandrels, backing, parapets.
 
     Raises ItemRefused where voussoirs are too few or cross, or springing joints do not fit piers and abutments.

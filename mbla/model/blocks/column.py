@@ -25,7 +25,7 @@ from mbla.deck.positions import DRUM
 from mbla.deck.quantities import Count, Integer, NonNegativeLength, PositiveLength
 from mbla.deck.section import Section, exactly_one_of, given, rule
 from mbla.errors import Finding
-from mbla.model.blocks.generated import Generated, Part, Site
+from mbla.model.blocks.generated import Generated, ItemContext, Part
 from mbla.model.blocks.item import Item
 from mbla.model.blocks.item_kind import ItemKind, register_item
 from mbla.model.solids.polyhedra import chains
@@ -49,7 +49,7 @@ class ColumnItem(Item):
 
     radius: PositiveLength = Field(description="radius of the shaft at its foot")
     top_radius: PositiveLength | None = Field(
-        None, description="radius of the shaft at its top; that at the foot unless given"
+        None, description="radius of the shaft at its top; default: radius at its foot"
     )
     entasis: NonNegativeLength = Field(
         0.0, description="how far the joints at half height swell beyond the straight taper; a parabola over the height"
@@ -117,7 +117,7 @@ _SQUARE = regular_polygon(4) * np.sqrt(0.5)
 """of side 1"""
 
 
-def generate(item: ColumnItem, site: Site) -> Generated:
+def generate(item: ColumnItem, context: ItemContext) -> Generated:
     """Base, drums from the bottom, and capital."""
     outline = corner_radius(item.sides, item.polygon) * regular_polygon(item.sides)
     foot = item.base.height if item.base else 0.0

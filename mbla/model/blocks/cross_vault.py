@@ -12,7 +12,7 @@ from mbla.deck.positions import COURSE, SEGMENT, SPAN, UNIT
 from mbla.deck.quantities import PositiveLength
 from mbla.deck.section import rule
 from mbla.errors import Finding
-from mbla.model.blocks.generated import Generated, ItemRefused, Site
+from mbla.model.blocks.generated import Generated, ItemContext, ItemRefused
 from mbla.model.blocks.item import SPRINGERS
 from mbla.model.blocks.item_kind import ItemKind, register_item
 from mbla.model.blocks.vaults.mitred import (
@@ -49,7 +49,7 @@ class CrossVaultItem(MitredVaultItem):
     edge: PositiveLength | None = Field(
         None,
         description="how far the webs run on beyond these corners, the width of the piers: more than the thickness; "
-        "twice the thickness unless given, over an oblong bay that of its stretched section",
+        "default: twice the thickness, over an oblong bay that of the stretched section",
     )
 
 
@@ -65,7 +65,7 @@ def edge_of(item: CrossVaultItem) -> float:
     return 2 * item.thickness * max(1.0, stretch) if item.edge is None else item.edge
 
 
-def generate(item: CrossVaultItem, site: Site) -> Generated:
+def generate(item: CrossVaultItem, context: ItemContext) -> Generated:
     """Groins from the springings up, four blocks in each course; units of the webs; keystone; fixed springers.
 
     Raises ItemRefused where the webs end before the feet of the groins.

@@ -35,7 +35,7 @@ from mbla.deck.section import Section, given, one_of, rule
 from mbla.errors import Finding
 from mbla.model.blocks.curves import named_curve, radius_of
 from mbla.model.blocks.curves.shapes import Smooth
-from mbla.model.blocks.generated import Generated, ItemRefused, Part, Site, level_ground
+from mbla.model.blocks.generated import Generated, ItemContext, ItemRefused, Part, level_ground
 from mbla.model.blocks.item import SPRINGERS, SpringingItem
 from mbla.model.blocks.item_kind import ItemKind, register_item
 from mbla.model.solids.polyhedra import Polyhedra, chains, join_polyhedra
@@ -47,7 +47,7 @@ class DomeDrum(Section):
     height: PositiveLength = Field(description="height up to the intrados springing")
     courses: Count = Field(description="number of courses")
     thickness: PositiveLength | None = Field(
-        None, description="radial thickness, inside flush with the dome; that of the dome unless given"
+        None, description="radial thickness, inside flush with the dome; default: thickness of the dome"
     )
 
 
@@ -85,7 +85,7 @@ class DomeItem(SpringingItem):
     )
     facets: Annotated[int, Integer(ge=1, le=1000)] | None = Field(
         None,
-        description="plane pieces around of each block's faces, even for running bond; 2 unless given, in stack bond 1",
+        description="plane pieces around of each block's faces, even for running bond; default: 2, in stack bond 1",
     )
     drum: DomeDrum | None = Field(None, description="cylindrical wall that the dome stands on")
 
@@ -150,7 +150,7 @@ def _facets(item: DomeItem) -> int:
     return item.facets or (2 if item.bond == "running" else 1)
 
 
-def generate(item: DomeItem, site: Site) -> Generated:
+def generate(item: DomeItem, context: ItemContext) -> Generated:
     """Drum from the bottom, rings from the springing, keystone.
 
     Raises ItemRefused for an opening or keystone as wide as the dome, or a drum that does not carry it.

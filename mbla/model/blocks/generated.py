@@ -67,7 +67,7 @@ class Generated:
 
 
 @dataclass(frozen=True)
-class Site:
+class ItemContext:
     """What a generator may know besides its item.
 
     tolerance : contacts.tolerance, relative to block size
@@ -88,5 +88,5 @@ class ItemRefused(Exception):  # noqa: N818 - an answer, not a defect
         super().__init__("; ".join(message for _, message in findings))
 
 
-Generator: TypeAlias = Callable[[Any, Site], Generated]
+Generator: TypeAlias = Callable[[Any, ItemContext], Generated]
 """Turns an item of one kind into polyhedra in its own coordinates; raises ItemRefused with everything wrong with it."""

@@ -17,7 +17,7 @@ from mbla.model.blocks.item_kind import SideGroup
 class Item(Section):
     """What every item of `blocks` has."""
 
-    group: Name | None = Field(None, description="name that selectors use; the item's kind unless given")
+    group: Name | None = Field(None, description="name for selectors; default: the item's kind")
     material: Name = Field(description="name of a material")
     transform: Transform = Field(
         default_factory=list, description="a step, or a list of steps applied in order to the item's own geometry"
@@ -37,7 +37,7 @@ class SpringingItem(Item):
         description="ground: rigid ground under the springing joints; blocks: fixed blocks behind them, in group "
         "GROUP_springers; none: the deck's supports hold the structure",
     )
-    joint: Name | None = Field(None, description="joint law at springings on ground; that of contacts unless given")
+    joint: Name | None = Field(None, description="joint law at springings on ground; default: contacts.joint")
 
 
 @rule(SpringingItem)

@@ -12,7 +12,7 @@ from mbla.deck.section import rule
 from mbla.deck.sections.geometry_file import GeometryFile, Names
 from mbla.deck.text.tree import KeyPath
 from mbla.errors import Finding
-from mbla.model.blocks.generated import Generated, Site
+from mbla.model.blocks.generated import Generated, ItemContext
 from mbla.model.blocks.item import Item
 from mbla.model.blocks.item_kind import ItemKind, register_item
 
@@ -40,9 +40,9 @@ class MeshItem(Item, GeometryFile):
     flat_faces: Literal["supports", "leave_out"] | None = Field(
         None,
         description="supports: every object of the file that is one flat face is rigid ground; leave_out: it is left "
-        "out; refused unless given",
+        "out; default: refused",
     )
-    joint: Name | None = Field(None, description="joint law on the file's supports; that of contacts unless given")
+    joint: Name | None = Field(None, description="joint law on the file's supports; default: contacts.joint")
     join_cells: Switch = Field(
         False,
         description="volume cells that share faces and belong to one set (ELSET, physical group, or without one the "
@@ -54,7 +54,7 @@ class MeshItem(Item, GeometryFile):
     )
     weld: PositiveLength | None = Field(
         None,
-        description="distance within which corners of one object are made one; unless given "
+        description="distance within which corners of one object are made one; default: "
         "contacts.tolerance x the shortest edge at a corner, and only where a surface is not closed",
     )
 
@@ -74,11 +74,11 @@ def names_in_one_list(item: MeshItem) -> Iterator[Finding]:
             yield Finding("duplicate-key", f"{name} is listed under leave_out too", "supports", number)
 
 
-def generate(item: MeshItem, site: Site) -> Generated:
+def generate(item: MeshItem, context: ItemContext) -> Generated:
     """Blocks in the order of the file; readers are imported when a deck has a file."""
     from mbla.model.blocks.files.mesh import read_mesh
 
-    return read_mesh(item, site)
+    return read_mesh(item, context)
 
 
 def flat_face(member: str, more: bool) -> str:

@@ -12,7 +12,7 @@ from mbla.deck.positions import COURSE, SEGMENT, SPAN, UNIT
 from mbla.deck.quantities import PositiveLength
 from mbla.deck.section import rule
 from mbla.errors import Finding
-from mbla.model.blocks.generated import Generated, Site
+from mbla.model.blocks.generated import Generated, ItemContext
 from mbla.model.blocks.item import SPRINGERS
 from mbla.model.blocks.item_kind import ItemKind, register_item
 from mbla.model.blocks.vaults.mitred import (
@@ -59,7 +59,7 @@ def vault_curve(vault: PavilionVaultItem) -> Iterator[Finding]:
     yield from check_curve(vault, vault.bay[0], joint_at_apex=False)
 
 
-def generate(item: PavilionVaultItem, site: Site) -> Generated:
+def generate(item: PavilionVaultItem, context: ItemContext) -> Generated:
     """Hips from the springings up, four blocks in each course; units of the webs; keystone; fixed springers."""
     section = half_section(item)
     hips, webs = [], Webs()

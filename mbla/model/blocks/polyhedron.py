@@ -11,7 +11,7 @@ from mbla.deck.quantities import Index, Point
 from mbla.deck.section import rule
 from mbla.deck.text.tree import KeyPath
 from mbla.errors import Finding
-from mbla.model.blocks.generated import Generated, Part, Site
+from mbla.model.blocks.generated import Generated, ItemContext, Part
 from mbla.model.blocks.item import Item
 from mbla.model.blocks.item_kind import ItemKind, register_item
 from mbla.model.solids.polyhedra import polyhedra_from_lists
@@ -40,7 +40,7 @@ def polyhedron_faces(polyhedron: PolyhedronItem) -> Iterator[Finding]:
             yield Finding("duplicate-key", "is a corner of this face already", "faces", number, position)
 
 
-def generate(item: PolyhedronItem, site: Site) -> Generated:
+def generate(item: PolyhedronItem, context: ItemContext) -> Generated:
     """The polyhedron as listed; faces in any orientation."""
     return Generated((Part(polyhedra_from_lists([item.vertices], [item.faces])),))
 

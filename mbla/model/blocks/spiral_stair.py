@@ -22,7 +22,7 @@ from mbla.deck.positions import TREAD
 from mbla.deck.quantities import Count, Integer, Name, NonNegativeLength, PositiveLength, Quantity
 from mbla.deck.section import rule
 from mbla.errors import Finding
-from mbla.model.blocks.generated import Generated, Part, Site, level_ground
+from mbla.model.blocks.generated import Generated, ItemContext, Part, level_ground
 from mbla.model.blocks.item import Item
 from mbla.model.blocks.item_kind import ItemKind, SideGroup, register_item
 from mbla.model.solids.polyhedra import Polyhedra, chains, join_polyhedra, polyhedra_from_cells
@@ -57,7 +57,7 @@ class SpiralStairItem(Item):
     )
     facets: Count = Field(1, description="straight pieces of the arc between the overlaps of a tread")
     foot: Literal["none", "ground"] = Field("none", description="ground: rigid ground under the lowest tread")
-    joint: Name | None = Field(None, description="joint law on ground; that of contacts unless given")
+    joint: Name | None = Field(None, description="joint law on ground; default: contacts.joint")
 
 
 @rule(SpiralStairItem)
@@ -84,7 +84,7 @@ WALL = SideGroup("_wall", "wall", ("shelf", "pocket"))
 """fixed blocks that hold the ends of the treads"""
 
 
-def generate(item: SpiralStairItem, site: Site) -> Generated:
+def generate(item: SpiralStairItem, context: ItemContext) -> Generated:
     """Treads from the bottom; shelves, then blocks on top of the ends of the treads."""
     angles = _angles(item)
     number = np.arange(item.treads)

@@ -17,7 +17,7 @@ from mbla.deck.quantities import Count, Length, PlanePoint, PositiveLength, Posi
 from mbla.deck.section import given, rule
 from mbla.deck.suggestions import listed
 from mbla.errors import Finding
-from mbla.model.blocks.generated import Generated, Part, Site
+from mbla.model.blocks.generated import Generated, ItemContext, Part
 from mbla.model.blocks.item import Item
 from mbla.model.blocks.item_kind import ItemKind, register_item
 from mbla.model.solids.polyhedra import cuboids
@@ -71,7 +71,7 @@ def _shift_sizes(stack: StackItem) -> Iterator[Finding]:
         yield Finding("out-of-bounds", f"must be < 2: {beyond}", "overhang")
 
 
-def generate(item: StackItem, site: Site) -> Generated:
+def generate(item: StackItem, context: ItemContext) -> Generated:
     """Blocks from the bottom."""
     shifts = np.concatenate([np.zeros((1, 2)), np.cumsum(_shifts(item), axis=0)])
     heights = item.block[2] * np.arange(item.count + 1)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pydantic import Field
 
 from mbla.deck.sections.geometry_file import Names
-from mbla.model.blocks.generated import Generated, Site
+from mbla.model.blocks.generated import Generated, ItemContext
 from mbla.model.blocks.item import Item
 from mbla.model.blocks.item_kind import ItemKind, register_item
 
@@ -30,11 +30,11 @@ class TableItem(Item):
     leave_out: Names | None = Field(None, description="blocks of the tables to leave out, by name")
 
 
-def generate(item: TableItem, site: Site) -> Generated:
+def generate(item: TableItem, context: ItemContext) -> Generated:
     """Blocks in the order in which the table of vertices names them first."""
     from mbla.model.blocks.files.table import read_blocks
 
-    return read_blocks(item, site)
+    return read_blocks(item, context)
 
 
 def flat_face(member: str, more: bool) -> str:

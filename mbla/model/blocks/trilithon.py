@@ -11,7 +11,7 @@ from mbla.deck.positions import UNIT
 from mbla.deck.quantities import PositiveLength
 from mbla.deck.section import rule
 from mbla.errors import Finding
-from mbla.model.blocks.generated import Generated, Part, Site
+from mbla.model.blocks.generated import Generated, ItemContext, Part
 from mbla.model.blocks.item import Item
 from mbla.model.blocks.item_kind import ItemKind, register_item
 from mbla.model.solids.polyhedra import cuboids
@@ -40,7 +40,7 @@ def trilithon_lintel(trilithon: TrilithonItem) -> Iterator[Finding]:
         yield Finding("out-of-bounds", words, "lintel", 0)
 
 
-def generate(item: TrilithonItem, site: Site) -> Generated:
+def generate(item: TrilithonItem, context: ItemContext) -> Generated:
     """Left upright, right upright, lintel."""
     upright, lintel = np.array(item.upright), np.array(item.lintel)
     left = np.array([[0.0, 0.0, 0.0], [upright[0] + item.opening, 0.0, 0.0]])

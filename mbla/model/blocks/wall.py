@@ -11,7 +11,7 @@ from mbla.deck.positions import COURSE, LEAF, UNIT, VOUSSOIR
 from mbla.deck.quantities import PositiveLength
 from mbla.deck.section import rule
 from mbla.errors import Finding
-from mbla.model.blocks.generated import Generated, Site
+from mbla.model.blocks.generated import Generated, ItemContext
 from mbla.model.blocks.item_kind import ItemKind, register_item
 from mbla.model.blocks.masonry.masonry import (
     MATERIALS,
@@ -47,7 +47,7 @@ def wall(item: WallItem) -> Iterator[Finding]:
         yield from (finding.below("buttresses", number) for finding in found)
 
 
-def generate(item: WallItem, site: Site) -> Generated:
+def generate(item: WallItem, context: ItemContext) -> Generated:
     """Units course by course from the bottom, along +x in each, leaf by leaf; then lintels, arches, buttresses.
 
     Raises
@@ -68,7 +68,7 @@ def generate(item: WallItem, site: Site) -> Generated:
         [(0, buttress) for buttress in item.buttresses],
         {} if item.gable is None else {0: item.gable},
     )
-    return build_walls(walls, item.group or "wall", site)
+    return build_walls(walls, item.group or "wall", context)
 
 
 def amount(item: WallItem) -> tuple[float, str]:

@@ -13,7 +13,7 @@ from mbla.deck.positions import COURSE, LEAF, SEGMENT, UNIT, VOUSSOIR
 from mbla.deck.quantities import Index, PlanePoint, Switch
 from mbla.deck.section import Section, rule
 from mbla.errors import Finding
-from mbla.model.blocks.generated import Generated, Site
+from mbla.model.blocks.generated import Generated, ItemContext
 from mbla.model.blocks.item_kind import ItemKind, register_item
 from mbla.model.blocks.masonry.masonry import (
     MATERIALS,
@@ -140,7 +140,7 @@ def _check_turns(item: WallsItem) -> Iterator[Finding]:
             yield Finding("wall-shape", message, "plan", number % len(item.plan))
 
 
-def generate(item: WallsItem, site: Site) -> Generated:
+def generate(item: WallsItem, context: ItemContext) -> Generated:
     """Units wall by wall, in each course by course from the bottom, leaf by leaf; then lintels, arches, buttresses.
 
     Raises
@@ -159,7 +159,7 @@ def generate(item: WallsItem, site: Site) -> Generated:
         {gable.segment: gable for gable in item.gables},
         numbered=True,
     )
-    return build_walls(walls, item.group or "walls", site)
+    return build_walls(walls, item.group or "walls", context)
 
 
 def lines_of(item: WallsItem) -> list[Line]:

@@ -20,7 +20,7 @@ from mbla.model.wording import vector
 
 
 def force_load(entry: Entry, blocks: IntArray | None, site: LoadSite) -> AppliedLoad | None:
-    """A force at a point of one block, (1,), at its centroid unless given."""
+    """A force at a point of one block, (1,), by default at its centroid."""
     block, at = one_block(entry, blocks, site), entry.load.at
     if block is None:
         return None

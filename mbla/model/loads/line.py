@@ -22,7 +22,7 @@ from mbla.model.applied_load import AppliedLoad, sum_on_blocks, wrenches_of
 from mbla.model.loads.blocks_under import Below
 from mbla.model.loads.dispersal import Spread
 from mbla.model.loads.entry import Entry
-from mbla.model.loads.landing import PARALLEL, Landing, level
+from mbla.model.loads.load_footprint import PARALLEL, LoadFootprint, level
 from mbla.model.loads.load_kind import LoadKind
 from mbla.model.loads.load_site import LoadSite
 from mbla.model.wording import counted, vector
@@ -66,12 +66,12 @@ def line_load(entry: Entry, blocks: IntArray | None, site: LoadSite) -> AppliedL
         return None  # its blocks could not be built
     begin, end = np.array(line.from_), np.array(line.to)
     through = None if name is None else site.fill[name]
-    landing = Landing(Below(site.blocks, np.array(line.towards), chosen), through, (*entry.path, "line"), site)
+    footprint = LoadFootprint(Below(site.blocks, np.array(line.towards), chosen), through, (*entry.path, "line"), site)
     words = (
         f"line load {vector(line.force_per_length)} {site.units.force}/{site.units.length} "
         f"from {vector(line.from_)} to {vector(line.to)} {site.units.length}"
     )
-    found = _landed(landing, line, begin, end, words)
+    found = _landed(footprint, line, begin, end, words)
     if found is None:
         return None
     length = float(np.linalg.norm(end - begin))
@@ -82,28 +82,28 @@ def line_load(entry: Entry, blocks: IntArray | None, site: LoadSite) -> AppliedL
     return AppliedLoad(unique, total, f"{words}{spread} on {counted(len(unique), 'block')}")
 
 
-def _landed(landing: Landing, line: LineLoad, begin: FloatArray, end: FloatArray, words: str) -> Spread | None:
+def _landed(footprint: LoadFootprint, line: LineLoad, begin: FloatArray, end: FloatArray, words: str) -> Spread | None:
     """Where it lands; None, and a fault, where part of it lies over no block, or, on fill, all of it goes beyond."""
-    site = landing.site
-    if landing.through is None:
-        ends, carriers = landing.parts_of_line(begin, end)
+    site = footprint.site
+    if footprint.through is None:
+        ends, carriers = footprint.parts_of_line(begin, end)
         bare = np.asarray((carriers < 0).all(axis=0))
         if bare.any() and not site.selection.partial:  # what could not be built may well lie there
-            _refuse_bare(line, ends, bare, landing.path, site)
-        return None if bare.any() else landing.of_line(begin, end)
+            _refuse_bare(line, ends, bare, footprint.path, site)
+        return None if bare.any() else footprint.of_line(begin, end)
     across = end - begin
-    if not landing.sound(np.array([line.force_per_length]), across, 0.0):
+    if not footprint.sound(np.array([line.force_per_length]), across, 0.0):
         return None
     along, width = level([across[1], -across[0]]), float(np.hypot(across[0], across[1]))
-    found = landing.of((begin + end) / 2, along, width)
+    found = footprint.of((begin + end) / 2, along, width)
     if found is not None and not len(found.blocks):
-        message = f"all of it goes beyond the blocks under the fill {landing.through.name}: move it"
-        site.refuse(Finding("load-beside-structure", message, *landing.path))
+        message = f"all of it goes beyond the blocks under the fill {footprint.through.name}: move it"
+        site.refuse(Finding("load-beside-structure", message, *footprint.path))
         return None
     if found is not None:
         force = np.array([line.force_per_length])
-        landing.remark_beyond(words, force, [found])
-        landing.remark_met(words, force, [found])
+        footprint.remark_beyond(words, force, [found])
+        footprint.remark_met(words, force, [found])
     return found
 
 

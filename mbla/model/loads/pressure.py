@@ -55,12 +55,10 @@ class PressureLoad(Section):
         description="angle δ between what acts on the face and its normal, in degrees: the pressure p drags the face "
         "with p tan δ besides, straight down its slope, as soil does that settles along a wall; up where δ is negative",
     )
-    normal: Direction | None = Field(None, description="outward normal of the faces; every face unless given")
+    normal: Direction | None = Field(None, description="outward normal of the faces; default: every face")
     within: FacingAngle = Field(10.0, description="greatest angle between the normal of a face and that, in degrees")
     box: Box | None = Field(None, description="least and greatest coordinates: faces whose centroid lies inside")
-    faces: Literal["free", "all"] = Field(
-        "free", description="free: only what of a face no other block and no ground covers; all: covered parts too"
-    )
+    faces: Literal["free", "all"] = Field("free", description="free: exposed part of each face; all: covered parts too")
 
 
 @rule(PressureLoad)

@@ -84,7 +84,7 @@ register_load(
         name="table",
         section=Annotated[str, Field(min_length=1)],
         description="CSV file, relative to the deck: a header line with the columns group,index,fx,fy,fz, optionally "
-        "x,y,z (where the force acts; the centroid unless given) and mx,my,mz (moment); then a row for each force",
+        "x,y,z (where the force acts; default: the centroid) and mx,my,mz (moment); then a row for each force",
         after="tilt",
         refuses={"on": "a table, whose rows name their blocks"},
         is_file=True,

@@ -1,4 +1,4 @@
-"""A force that travels: its positions along a path, each landing on the block under it, or through fill on several.
+"""A force that travels: its positions along a path, each footprint on the block under it, or through fill on several.
 
 Positions lie at equal distances along the path, both ends among them. The load case NAME becomes NAME@01, NAME@02, ...:
 a name of the deck cannot have an @, files and HDF5 groups can.
@@ -28,7 +28,7 @@ from mbla.model.applied_load import AppliedLoad
 from mbla.model.loads.blocks_under import Below
 from mbla.model.loads.dispersal import Spread
 from mbla.model.loads.entry import Entry
-from mbla.model.loads.landing import Landing, level, on_blocks, share_of
+from mbla.model.loads.load_footprint import LoadFootprint, level, on_blocks, share_of
 from mbla.model.loads.load_kind import CaseKind, Variant
 from mbla.model.loads.load_site import LoadSite
 from mbla.model.loads.vehicle import Axles, axles_in_row, axles_of, remark_upwards
@@ -57,7 +57,7 @@ class Travel(Section):
         "at the beginning of the path to the last axle at its end"
     )
     axles: list[Axle] | None = Field(None, min_length=1, max_length=100, description=AXLES)
-    width: PositiveLength | None = Field(None, description=f"{WIDTH} acts at a point")
+    width: PositiveLength | None = Field(None, description=WIDTH)
     towards: Direction = Field(DOWN, description=TOWARDS)
 
 
@@ -94,29 +94,29 @@ def travel_variants(
         site.refuse(Finding("load-beside-structure", words, *path, "axles" if travel.vehicle is None else "vehicle"))
         return []
     _remark_off_path(entry.factor * axles.forces, [acting for _, _, acting in vehicle], path, site)
-    landing = Landing(
+    footprint = LoadFootprint(
         Below(site.blocks, np.array(travel.towards), chosen), site.fill[through] if through else None, path, site
     )
     steps = np.diff(np.array(travel.path), axis=0)
-    if not all(landing.sound(axles.forces, step, axles.width) for step in steps):
+    if not all(footprint.sound(axles.forces, step, axles.width) for step in steps):
         return []
     before = len(site.selection.faults)
-    found = [_landed(landing, travel, axles.width, *each) for each in vehicle]
+    found = [_landed(footprint, travel, axles.width, *each) for each in vehicle]
     bare = [(number, place) for number, (_, place) in enumerate(found, start=1) if place is not None]
     if bare and len(site.selection.faults) == before and not site.selection.partial:
-        _refuse_bare(bare, len(vehicle), landing)
+        _refuse_bare(bare, len(vehicle), footprint)
     if bare:
         return []
     positions, forces = [], entry.factor * axles.forces
     for number, ((points, distances, _), (landed, _)) in enumerate(zip(vehicle, found, strict=True), start=1):
-        if landing.through is not None:
-            points[:, 2] = landing.through.tops(points)
+        if footprint.through is not None:
+            points[:, 2] = footprint.through.tops(points)
         under = np.array([_most(each) for each in landed])
-        spread = landing.through is not None or axles.width > 0.0
+        spread = footprint.through is not None or axles.width > 0.0
         position = TravelPosition(name, number, len(vehicle), points, distances, forces, under, spread)
-        applied = replace(_applied(position, landed, landing), follows=entry.load.follows)
+        applied = replace(_applied(position, landed, footprint), follows=entry.load.follows)
         positions.append(Variant(applied, travel=position))
-    _remark_parts(name, axles.forces, [landed for landed, _ in found], landing)
+    _remark_parts(name, axles.forces, [landed for landed, _ in found], footprint)
     return positions
 
 
@@ -133,14 +133,14 @@ Landed: TypeAlias = Sequence[Spread | None]
 
 
 def _landed(
-    landing: Landing, travel: Travel, width: float, points: FloatArray, distances: FloatArray, acting: BoolArray
+    footprint: LoadFootprint, travel: Travel, width: float, points: FloatArray, distances: FloatArray, acting: BoolArray
 ) -> tuple[Landed, FloatArray | None]:
     """Where the axles land, and the first place, (3,), where one lies over no block; on fill, where all of them do."""
     found: list[Spread | None] = [None] * len(points)
     bare = []
     for axle in np.flatnonzero(acting).tolist():
         way = level(_way_at(travel, float(distances[axle])))
-        found[axle] = landing.of(points[axle], way, width)
+        found[axle] = footprint.of(points[axle], way, width)
         if found[axle] is None:
             bare.append(points[axle])
     if not bare and not any(each is not None and len(each.blocks) for each in found):
@@ -174,16 +174,16 @@ def _remark_off_path(forces: FloatArray, acting: Sequence[BoolArray], path: KeyP
     remark_upwards(forces, where, site)
 
 
-def _refuse_bare(bare: list[tuple[int, FloatArray]], count: int, landing: Landing) -> None:
+def _refuse_bare(bare: list[tuple[int, FloatArray]], count: int, footprint: LoadFootprint) -> None:
     (first, point), more = bare[0], len(bare) - 1
     over = "over no block; change the path, or look for blocks in another direction with towards"
-    if landing.through is not None:
-        over = f"beyond the blocks under the fill {landing.through.name}; change the path"
+    if footprint.through is not None:
+        over = f"beyond the blocks under the fill {footprint.through.name}; change the path"
     words = (
-        f"position {first} of {count}, at {vector(point)} {landing.site.units.length},"
+        f"position {first} of {count}, at {vector(point)} {footprint.site.units.length},"
         f"{f' and {more} more lie' if more else ' lies'} {over}"
     )
-    landing.site.refuse(Finding("load-beside-structure", words, *landing.path))
+    footprint.site.refuse(Finding("load-beside-structure", words, *footprint.path))
 
 
 def _most(landed: Spread | None) -> int:
@@ -191,12 +191,12 @@ def _most(landed: Spread | None) -> int:
     return -1 if landed is None or not len(landed.blocks) else int(landed.blocks[np.argmax(landed.shares)])
 
 
-def _applied(position: TravelPosition, landed: Landed, landing: Landing) -> AppliedLoad:
+def _applied(position: TravelPosition, landed: Landed, footprint: LoadFootprint) -> AppliedLoad:
     """The forces on the path, on the blocks they land on, which may be the same for some."""
-    site, units = landing.site, landing.site.units
+    site, units = footprint.site, footprint.site.units
     there = [(axle, each) for axle, each in enumerate(landed) if each is not None and len(each.blocks)]
     blocks, wrenches = on_blocks([each for _, each in there], position.forces[[axle for axle, _ in there]], site)
-    through = f" through fill {landing.through.name}" if landing.through is not None else ""
+    through = f" through fill {footprint.through.name}" if footprint.through is not None else ""
     each_on = [
         f"force {vector(position.forces[axle])} {units.force} at {vector(position.points[axle])} {units.length}"
         f"{through} on {_blocks_in_words(each, site)}"
@@ -216,11 +216,11 @@ def _blocks_in_words(landed: Spread, site: LoadSite) -> str:
     return site.blocks.name(int(under[0])) if len(under) == 1 else counted(len(under), "block")
 
 
-def _remark_parts(name: str, forces: FloatArray, positions: Sequence[Landed], landing: Landing) -> None:
+def _remark_parts(name: str, forces: FloatArray, positions: Sequence[Landed], footprint: LoadFootprint) -> None:
     """The positions at which most of the load goes beyond the ends of the blocks, and meets others, if some does."""
     acting = [[axle for axle, each in enumerate(landed) if each is not None] for landed in positions]
     there = [[each for each in landed if each is not None] for landed in positions]
-    for remark, part in ((landing.remark_beyond, "beyond"), (landing.remark_met, "met")):
+    for remark, part in ((footprint.remark_beyond, "beyond"), (footprint.remark_met, "met")):
         shares = [
             share_of(forces[axles], [getattr(each, part) for each in own])
             for axles, own in zip(acting, there, strict=True)

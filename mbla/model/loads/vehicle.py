@@ -17,7 +17,7 @@ from mbla.errors import Finding
 from mbla.model.applied_load import AppliedLoad
 from mbla.model.loads.blocks_under import Below
 from mbla.model.loads.entry import Entry
-from mbla.model.loads.landing import Landing, level, on_blocks
+from mbla.model.loads.load_footprint import LoadFootprint, level, on_blocks
 from mbla.model.loads.load_kind import LoadKind
 from mbla.model.loads.load_site import LoadSite
 from mbla.model.solids.plane import unit
@@ -78,12 +78,12 @@ def vehicle_load(entry: Entry, blocks: IntArray | None, site: LoadSite) -> Appli
     chosen = np.arange(len(site.blocks)) if blocks is None else blocks
     here = (*entry.path, "vehicle")
     remark_upwards(entry.load.factor * axles.forces, ".".join(map(str, here)), site)
-    landing = Landing(Below(site.blocks, np.array(stands.towards), chosen), through, here, site)
+    footprint = LoadFootprint(Below(site.blocks, np.array(stands.towards), chosen), through, here, site)
     way = unit(stands.along)
-    if not landing.sound(axles.forces, way, axles.width):
+    if not footprint.sound(axles.forces, way, axles.width):
         return None
     places, before = np.array(stands.at) - axles.behind[:, None] * way, len(site.selection.faults)
-    found = [landing.of(place, level(way), axles.width) for place in places]
+    found = [footprint.of(place, level(way), axles.width) for place in places]
     words = f"vehicle {stands.name} at {vector(stands.at)} {site.units.length} along {vector(way)}"
     bare = [place for place, each in zip(places, found, strict=True) if each is None]
     if bare or not any(each is not None and len(each.blocks) for each in found):
@@ -98,8 +98,8 @@ def vehicle_load(entry: Entry, blocks: IntArray | None, site: LoadSite) -> Appli
         return None
     landed = [each for each in found if each is not None]
     unique, total = on_blocks(landed, axles.forces, site)
-    landing.remark_beyond(words, axles.forces, landed)
-    landing.remark_met(words, axles.forces, landed)
+    footprint.remark_beyond(words, axles.forces, landed)
+    footprint.remark_met(words, axles.forces, landed)
     spread = "" if through is None else f" through fill {through.name}"
     return AppliedLoad(
         unique, total, f"{words}, {counted(len(places), 'axle')}{spread} on {counted(len(unique), 'block')}"

@@ -193,7 +193,7 @@ class Case:
         kind
             ``model``, ``mechanism``, ``forces`` or ``history``.
         format
-            ``png``, ``svg`` or ``pdf``; png unless given.
+            ``png``, ``svg`` or ``pdf``; default: png.
 
         Raises
         ------

@@ -74,7 +74,7 @@ def segments(
 ) -> Mark:
     """A mark of segments of their own points.
 
-    ends : (k, 2, 3) m; bodies : (k, 2) of each segment; widths : (k,), 1 unless given
+    ends : (k, 2, 3) m; bodies : (k, 2) of each segment; widths : (k,), default: 1
     """
     count = len(ends)
     return Mark(

@@ -130,9 +130,9 @@ def path_of_part(
 ) -> PathOfPart:
     """The path of a part, or of what moves in it by associative flow.
 
-    dilatancy  : (n_points,) tangents of its angles; none unless given
+    dilatancy  : (n_points,) tangents of its angles; default: none
     interfaces : of the model that have a law of their own
-    gaps       : (n_points,) displacement by which each joint closes before it touches; none unless given
+    gaps       : (n_points,) displacement by which each joint closes before it touches; default: none
     extent     : how much of it is followed
     """
     settings.validate()
@@ -164,7 +164,7 @@ def path_by(
 ) -> PathOfPart:
     """The path of a program by its load factor of associative flow, None where it has none.
 
-    part    : what alone is followed; the whole unless given
+    part    : the part that is followed; default: the whole
     gravity : the structure at rest, where that is known
 
     Raises ValueError where joints dilate and interfaces twist: what torsion opens is not known.

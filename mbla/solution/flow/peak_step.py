@@ -121,7 +121,7 @@ def solved_peak(
     The state with the least misfit that was met, which says how far it came.
 
     force  : n₀
-    enough : whether a state is taken, one that is solved unless given
+    enough : whether a state is taken; default: a solved one
     good   : whether one is taken where the way to such a state is blocked; else it begins anew
     """
     step, joints, again, blocked = peak.step, peak.step.joints, list(AGAIN), 0

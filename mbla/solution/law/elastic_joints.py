@@ -80,7 +80,7 @@ class ElasticJoints:
 
         shares     : (n_points,) of the stiffness, mean 1
         ratio      : k_T over k_N
-        dilatancy  : (n_points,) tangents of its angles; none unless given
+        dilatancy  : (n_points,) tangents of its angles; default: none
         interfaces : of the program that have a law of their own
         """
         slope, brittle = np.zeros(program.n_points) if dilatancy is None else dilatancy, brittle_of(program)

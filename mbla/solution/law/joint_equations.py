@@ -19,7 +19,7 @@ class JointStep:
     length : h
     driven : whether the live work f_L·u is given; else the load factor stays and the structure finds its rest
     work   : that work: 1, or 0 of a support that is held
-    held   : (n_rows,) stiffness of springs that hold the blocks where they are; none unless given
+    held   : (n_rows,) stiffness of springs that hold the blocks where they are; default: none
     """
 
     joints: ElasticJoints

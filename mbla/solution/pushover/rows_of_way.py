@@ -161,8 +161,8 @@ class RowsOfWay:
     def _at(
         self, step: PoseStep, found: Smoothed, place: Place, goal: float | None, factor: float | None = None
     ) -> Row | None:
-        """The row of a part of a step at a displacement of the control point; without one at a load factor, the one
-        asked for unless given. None where no row is found.
+        """The row of a part of a step at a displacement of the control point; without one at a load factor, the one the
+        deck asks for by default. None where no row is found.
         """
         way, end = self.of, self.of.until_load_factor if factor is None else factor
         size = max(abs(place.factor), abs(end), 1e-300) if goal is None else goal

@@ -112,7 +112,7 @@ class Horizon(Section):
         None, description="how many; none in a design that samples directions"
     )
     size: PositiveNumber | None = Field(
-        None, description="length of the horizontal part; that of the vector of the base deck unless given"
+        None, description="length of the horizontal part; default: length of the vector in the base deck"
     )
 
 
@@ -122,9 +122,7 @@ class Sphere(Section):
     start: Elevation = Field(-90.0, alias="from", description="least elevation above the horizon in degrees")
     end: Elevation = Field(90.0, alias="to", description="greatest elevation")
     points: Points | None = Field(None, description="how many, on a spiral; none in a design that samples directions")
-    size: PositiveNumber | None = Field(
-        None, description="length of the vector; that of the vector of the base deck unless given"
-    )
+    size: PositiveNumber | None = Field(None, description="length of the vector; default: its length in the base deck")
 
 
 class Parameter(Section):
@@ -132,8 +130,8 @@ class Parameter(Section):
 
     key: KeyPaths | None = Field(
         None,
-        description="key path in the deck, or several that get the same value; unless given, the name is that of a "
-        "parameter of the deck or, with full stops in it, itself a key path",
+        description="key path in the deck, or several that get the same value; default: the name, as "
+        "a parameter of the deck or, with full stops in it, a key path",
     )
     unit: Line = Field("", description="unit of the values, for tables and pictures; the deck's own is known by itself")
     values: Annotated[list[Any], Field(min_length=1)] | None = Field(
@@ -154,7 +152,7 @@ class Combined(Section):
     """Parameters of a part of the design."""
 
     of: Annotated[list[str], Field(min_length=1)] | None = Field(
-        None, description="parameters; all that no other part of the design names unless given"
+        None, description="parameters; default: all that no other part of the design names"
     )
 
 
@@ -214,12 +212,12 @@ class SweepContent(Section):
     title: Line = Field("", description="shown in tables and pictures")
     deck: str = Field(min_length=1, description="base deck, relative to this file")
     cases: Annotated[list[Name], Field(min_length=1)] | None = Field(
-        None, description="load cases to solve; all of the deck unless given"
+        None, description="load cases to solve; default: all of the deck"
     )
     set: dict[str, Any] = Field(default_factory=dict, description="values by key path of the deck, for every point")
     parameters: dict[ParameterName, Parameter] = Field(min_length=1, description="what changes, by name")
     design: list[DesignPart] | None = Field(
-        None, min_length=1, description="parts of the design; a grid of all parameters unless given"
+        None, min_length=1, description="parts of the design; default: a grid of all parameters"
     )
     constraints: list[str] = Field(
         default_factory=list,

@@ -82,7 +82,7 @@ class InteractionQuestion:
 def question_of(deck: Deck, options: Any, ratio: Callable[[], float] = lambda: 1.0) -> InteractionQuestion:
     """What is asked of a deck; building the model here finds whatever is wrong with it before a point is solved.
 
-    options : ``case`` or ``loads`` (two names), ``directions``, ``start`` and ``end`` in degrees, None unless given
+    options : ``case`` or ``loads`` (two names), ``directions``, ``start`` and ``end`` in degrees, by default None
     ratio   : of the load factor of the second of two loads alone to that of the first
 
     Raises

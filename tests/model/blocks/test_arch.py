@@ -14,13 +14,13 @@ from mbla.arrays import FloatArray
 from mbla.contacts import find_contacts
 from mbla.deck.sections.contacts import ContactsSection
 from mbla.model.blocks.arch import ArchItem, generate
-from mbla.model.blocks.generated import Generated, ItemRefused, Site
+from mbla.model.blocks.generated import Generated, ItemContext, ItemRefused
 from mbla.model.solids.blocks import Blocks
 from mbla.model.solids.polyhedra import join_polyhedra
 from tests.contacts.structures import blocks_of, model_of
 from tests.model.shapes import build_raw
 
-SITE = Site(1e-3, lambda path, name: Path(name))
+SITE = ItemContext(1e-3, lambda path, name: Path(name))
 
 
 def arch(**keys: Any) -> Generated:

@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 
 from mbla.model.blocks.barrel_vault import BarrelVaultItem, generate
-from mbla.model.blocks.generated import Generated, Site
+from mbla.model.blocks.generated import Generated, ItemContext
 from tests.model.blocks.assembly import assemble
 from tests.model.shapes import build_raw
 
-SITE = Site(1e-3, lambda path, name: Path(name))
+SITE = ItemContext(1e-3, lambda path, name: Path(name))
 BASE = {"material": "stone", "span": 4.0, "thickness": 0.3, "courses": 7, "length": 2.0, "unit": 0.5}
 TEXT = "barrel_vault: {material: stone, span: 4, thickness: 0.3, courses: 7, length: 2, unit: 0.5, "
 

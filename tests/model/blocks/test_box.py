@@ -5,10 +5,10 @@ from pathlib import Path
 import pytest
 
 from mbla.model.blocks.box import BoxItem, generate
-from mbla.model.blocks.generated import Site
+from mbla.model.blocks.generated import ItemContext
 from tests.model.shapes import build_raw
 
-SITE = Site(1e-3, lambda path, name: Path(name))
+SITE = ItemContext(1e-3, lambda path, name: Path(name))
 
 
 def test_box() -> None:

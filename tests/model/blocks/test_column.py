@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 
 from mbla.model.blocks.column import ColumnItem, corner_radius, generate, regular_polygon
-from mbla.model.blocks.generated import Generated, Site
+from mbla.model.blocks.generated import Generated, ItemContext
 from tests.model.blocks.assembly import assemble
 from tests.model.shapes import build_raw
 
-SITE = Site(1e-3, lambda path, name: Path(name))
+SITE = ItemContext(1e-3, lambda path, name: Path(name))
 
 
 def column(**keys: Any) -> Generated:

@@ -7,12 +7,12 @@ import numpy as np
 import pytest
 
 from mbla.model.blocks.cross_vault import CrossVaultItem, generate
-from mbla.model.blocks.generated import Generated, Site
+from mbla.model.blocks.generated import Generated, ItemContext
 from tests.model.blocks.assembly import assemble
 from tests.model.blocks.vault_sections import areas_and_centroids, joints_of_circle
 from tests.model.shapes import build_raw
 
-SITE = Site(1e-3, lambda path, name: Path(name))
+SITE = ItemContext(1e-3, lambda path, name: Path(name))
 BASE = {"material": "stone", "shape": "semicircular", "bay": (4.0, 4.0), "thickness": 0.25, "courses": 9, "unit": 0.6}
 
 

@@ -9,11 +9,11 @@ import pytest
 
 from mbla.arrays import FloatArray
 from mbla.model.blocks.dome import DomeItem, generate
-from mbla.model.blocks.generated import Generated, ItemRefused, Site
+from mbla.model.blocks.generated import Generated, ItemContext, ItemRefused
 from tests.model.blocks.assembly import assemble
 from tests.model.shapes import build_raw
 
-SITE = Site(1e-3, lambda path, name: Path(name))
+SITE = ItemContext(1e-3, lambda path, name: Path(name))
 BASE = {"material": "stone", "span": 4.0, "thickness": 0.3, "rings": 5, "segments": 8}
 
 

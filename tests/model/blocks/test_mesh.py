@@ -5,14 +5,14 @@ from typing import Any
 
 import pytest
 
-from mbla.model.blocks.generated import ItemRefused, Part, Site
+from mbla.model.blocks.generated import ItemContext, ItemRefused, Part
 from mbla.model.blocks.mesh import MeshItem, generate
 from mbla.model.solids.build import BuiltBlocks
 from tests.model.shapes import box, build_raw
 
 
-def site(folder: Path) -> Site:
-    return Site(1e-3, lambda path, name: folder / name)
+def context(folder: Path) -> ItemContext:
+    return ItemContext(1e-3, lambda path, name: folder / name)
 
 
 def write_obj(path: Path, n: int) -> None:
@@ -26,7 +26,7 @@ def write_obj(path: Path, n: int) -> None:
 
 def test_mesh_is_scaled(tmp_path: Path) -> None:
     write_obj(tmp_path / "row.obj", 3)
-    made = generate(MeshItem(material="stone", file="row.obj", scale=0.01), site(tmp_path))
+    made = generate(MeshItem(material="stone", file="row.obj", scale=0.01), context(tmp_path))
     built = build_raw(made.parts[0].polyhedra)
     assert built.blocks.volumes == pytest.approx([1e-6] * 3)
     assert built.blocks.centroids[2] == pytest.approx([0.045, 0.005, 0.005])
@@ -34,8 +34,8 @@ def test_mesh_is_scaled(tmp_path: Path) -> None:
 
 def made(folder: Path, text: str, deck_length: str = "m", **keys: Any) -> tuple[BuiltBlocks, Part, list[str]]:
     (folder / "x.obj").write_text(text)
-    site = Site(1e-3, lambda path, name: folder / name, deck_length)
-    generated = generate(MeshItem.model_validate({"material": "stone", "file": "x.obj"} | keys), site)
+    context = ItemContext(1e-3, lambda path, name: folder / name, deck_length)
+    generated = generate(MeshItem.model_validate({"material": "stone", "file": "x.obj"} | keys), context)
     (part,) = generated.parts
     return build_raw(part.polyhedra), part, [notice.message for notice in generated.notices]
 

@@ -2,11 +2,11 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from mbla.model.blocks.generated import Site
+from mbla.model.blocks.generated import ItemContext
 from mbla.model.blocks.polyhedron import PolyhedronItem, generate
 from tests.model.shapes import TETRAHEDRON
 
-SITE = Site(1e-3, lambda path, name: Path(name))
+SITE = ItemContext(1e-3, lambda path, name: Path(name))
 
 
 def test_polyhedron() -> None:

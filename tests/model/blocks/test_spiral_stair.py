@@ -6,12 +6,12 @@ from typing import Any
 import numpy as np
 import pytest
 
-from mbla.model.blocks.generated import Generated, Site
+from mbla.model.blocks.generated import Generated, ItemContext
 from mbla.model.blocks.spiral_stair import SpiralStairItem, generate
 from tests.model.blocks.assembly import assemble
 from tests.model.shapes import build_raw
 
-SITE = Site(1e-3, lambda path, name: Path(name))
+SITE = ItemContext(1e-3, lambda path, name: Path(name))
 BASE = {
     "material": "stone",
     "treads": 6,

@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 from mbla.arrays import FloatArray
-from mbla.model.blocks.generated import Site
+from mbla.model.blocks.generated import ItemContext
 from mbla.model.blocks.stack import StackItem, generate
 
-SITE = Site(1e-3, lambda path, name: Path(name))
+SITE = ItemContext(1e-3, lambda path, name: Path(name))
 
 
 def corners(**keys: Any) -> FloatArray:

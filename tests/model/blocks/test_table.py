@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from mbla.model.blocks.generated import ItemRefused, Part, Site
+from mbla.model.blocks.generated import ItemContext, ItemRefused, Part
 from mbla.model.blocks.table import TableItem, generate
 from tests.model.shapes import box, build_raw
 
@@ -23,7 +23,7 @@ def part(folder: Path, vertices: str = VERTICES, faces: str = FACES) -> Part:
     (folder / "v.csv").write_text(vertices)
     (folder / "f.csv").write_text(faces)
     item = TableItem(material="stone", vertices="v.csv", faces="f.csv")
-    return generate(item, Site(1e-3, lambda path, name: folder / name)).parts[0]
+    return generate(item, ItemContext(1e-3, lambda path, name: folder / name)).parts[0]
 
 
 def test_blocks_in_order_of_their_first_vertex_with_rows_in_any_order(tmp_path: Path) -> None:

@@ -5,11 +5,11 @@ from typing import Any
 
 import pytest
 
-from mbla.model.blocks.generated import ItemRefused, Site
+from mbla.model.blocks.generated import ItemContext, ItemRefused
 from mbla.model.blocks.wall import WallItem, generate
 from mbla.model.solids.polyhedra import Polyhedra
 
-SITE = Site(1e-3, lambda path, name: Path(name))
+SITE = ItemContext(1e-3, lambda path, name: Path(name))
 A, B = [0.5, 1, 1, 1, 1, 0.5], [1, 1, 1, 1, 1]
 FE3, FU3, WU3, WE3 = [1, 1, 1, 1], [0.5, 1, 1, 1, 0.5], [0.5, 1, -1, 1, 0.5], [1, 0.5, -1, 0.5, 1]
 FE5, FU5, WU5, WE5 = [0.5, 1, 1, 0.5], [1, 1, 1], [1, -1, 1], [0.5, 0.5, -1, 0.5, 0.5]

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from mbla.arrays import FloatArray, IntArray
-from mbla.model.blocks.generated import Site
+from mbla.model.blocks.generated import ItemContext
 from mbla.model.blocks.mesh import MeshItem, generate
 from mbla.model.geometry.meshio_files import write_mesh
 from mbla.model.solids.polyhedra import cuboids
@@ -33,7 +33,7 @@ def two_bricks(shared: bool) -> tuple[FloatArray, IntArray]:
 def made(path: Path, **keys: object) -> tuple[list[float], list[tuple[str, str]]]:
     """Volumes of the blocks of a file, and what was said of them."""
     item = MeshItem.model_validate({"material": "stone", "file": path.name} | keys)
-    generated = generate(item, Site(1e-3, lambda _, name: path.parent / name))
+    generated = generate(item, ItemContext(1e-3, lambda _, name: path.parent / name))
     built = build_raw(generated.parts[0].polyhedra)
     assert not built.defects
     said = [(notice.identifier, notice.message) for notice in generated.notices]

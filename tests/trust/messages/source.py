@@ -26,7 +26,7 @@ PRINTED_BY = {"internal-error": "results/failures.py", "deck-invalid": "errors.p
 
 
 @dataclass(frozen=True)
-class Site:
+class ItemContext:
     """A call that makes a message or an error; ``identifier`` is None where it is no literal."""
 
     file: str
@@ -36,7 +36,7 @@ class Site:
 
 
 @cache
-def sites() -> tuple[Site, ...]:
+def sites() -> tuple[ItemContext, ...]:
     """Every place at which a message or an error is made."""
     classes: list[ast.ClassDef] = []
     calls: list[tuple[Path, set[str], ast.Call]] = []
@@ -67,11 +67,11 @@ def _makes(path: Path, call: ast.Call, names: set[str]) -> bool:
     return _name(call.func) in names and not (remarks and _name(call.func) == "Message")
 
 
-def _site(path: Path, call: ast.Call) -> Site:
+def _site(path: Path, call: ast.Call) -> ItemContext:
     given = call.args[0] if call.args else None
     literal = given.value if isinstance(given, ast.Constant) and isinstance(given.value, str) else None
     handed_on = isinstance(given, ast.Attribute) and given.attr == "identifier"
-    return Site(str(path.relative_to(PACKAGE)), call.lineno, literal, handed_on)
+    return ItemContext(str(path.relative_to(PACKAGE)), call.lineno, literal, handed_on)
 
 
 def _name(node: Any) -> str:

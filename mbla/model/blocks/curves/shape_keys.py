@@ -12,7 +12,7 @@ from mbla.errors import Finding
 
 CurveShape: TypeAlias = Literal["semicircular", "segmental", "pointed", "elliptic", "catenary", "basket"]
 SIDE_ANGLE = 60.0
-"""of a basket arch [degrees] unless given"""
+"""of a basket arch [degrees], by default"""
 SHAPES_WITH = {
     "span": ("semicircular", "segmental", "pointed", "elliptic", "catenary", "basket"),
     "rise": ("segmental", "pointed", "elliptic", "catenary", "basket"),

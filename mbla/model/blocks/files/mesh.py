@@ -12,7 +12,7 @@ from mbla.arrays import FloatArray
 from mbla.deck.section import given
 from mbla.errors import Finding, Notice
 from mbla.model.blocks.files.members import members_of, placed_vertices, read_members, split_off_supports, taken
-from mbla.model.blocks.generated import Generated, ItemRefused, Part, Site
+from mbla.model.blocks.generated import Generated, ItemContext, ItemRefused, Part
 from mbla.model.geometry.cells import join_cells, joinable_tetrahedra
 from mbla.model.geometry.geometry import Geometry, member_name
 from mbla.model.geometry.repair import repair
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from mbla.model.blocks.mesh import MeshItem
 
 
-def read_mesh(item: MeshItem, site: Site) -> Generated:
+def read_mesh(item: MeshItem, context: ItemContext) -> Generated:
     """Blocks in the order of the file, in the deck's units and upright; members by the names of the file.
 
     Raises
@@ -33,19 +33,19 @@ def read_mesh(item: MeshItem, site: Site) -> Generated:
     DeckError
         for files that are missing or outside the deck's folder
     """
-    geometry = _cells_joined(item, _without(item, read_members(site.resolve_file(("file",), item.file), item)))
+    geometry = _cells_joined(item, _without(item, read_members(context.resolve_file(("file",), item.file), item)))
     if findings := list(_misfits(item, geometry)):
         raise ItemRefused(*findings)
     loose = _loose_cells(item, geometry)
-    vertices = placed_vertices(geometry, item, site.length, item.extrude)
+    vertices = placed_vertices(geometry, item, context.length, item.extrude)
     placed = replace(geometry, polyhedra=replace(geometry.polyhedra, vertices=vertices))
-    solid, surfaces = split_off_supports(placed, item, site.tolerance)
-    blocks = repair(solid, site.tolerance, item.weld)
+    solid, surfaces = split_off_supports(placed, item, context.tolerance)
+    blocks = repair(solid, context.tolerance, item.weld)
     if not len(blocks.polyhedra):
         words = "the file holds no blocks: its faces have no area"
         raise ItemRefused(Finding("geometry-without-blocks", words, "file"))
     members = [member_name(name) for name in blocks.names]
-    remarks = (*loose, *blocks.notices, *_taken_for_granted(item, geometry, site, vertices))
+    remarks = (*loose, *blocks.notices, *_taken_for_granted(item, geometry, context, vertices))
     notices = tuple(replace(notice, message=f"{item.file}: {notice.message}") for notice in remarks)
     part = Part(blocks.polyhedra, member=members if any(members) else "")
     return Generated((part,), surfaces=surfaces, notices=notices)
@@ -94,12 +94,12 @@ def _misfits(item: MeshItem, geometry: Geometry) -> Iterator[Finding]:
         yield Finding("key-of-another-choice", "does not apply to a drawing, which has outlines of blocks only", key)
 
 
-def _taken_for_granted(item: MeshItem, geometry: Geometry, site: Site, vertices: FloatArray) -> list[Notice]:
+def _taken_for_granted(item: MeshItem, geometry: Geometry, context: ItemContext, vertices: FloatArray) -> list[Notice]:
     """What the header of the file decided, with the size that follows."""
     if item.units is not None or geometry.unit is None or not len(vertices):
         return []
     x, y, z = np.ptp(vertices, axis=0)
-    size = f"{x:.4g} x {y:.4g} x {z:.4g} {site.length} along x, y, z"
+    size = f"{x:.4g} x {y:.4g} x {z:.4g} {context.length} along x, y, z"
     words = (
         f"coordinates in {geometry.unit}, as the file has it; its blocks measure {size} in the deck; "
         "units may say otherwise"

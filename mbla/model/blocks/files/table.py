@@ -12,7 +12,7 @@ import numpy as np
 from mbla.arrays import FloatArray
 from mbla.errors import Finding, Message
 from mbla.model.blocks.files.members import members_of, taken
-from mbla.model.blocks.generated import Generated, ItemRefused, Part, Site
+from mbla.model.blocks.generated import Generated, ItemContext, ItemRefused, Part
 from mbla.model.geometry.geometry import Geometry, member_name
 from mbla.model.solids.polyhedra import polyhedra_from_lists
 from mbla.model.tables import Table, TableRefused, read_table
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 COLUMNS = {"vertices": ("block", "vertex", "x", "y", "z"), "faces": ("block", "face")}
 
 
-def read_blocks(item: TableItem, site: Site) -> Generated:
+def read_blocks(item: TableItem, context: ItemContext) -> Generated:
     """Blocks in the order in which the table of vertices names them first.
 
     Raises
@@ -37,7 +37,7 @@ def read_blocks(item: TableItem, site: Site) -> Generated:
     tables: dict[str, Table] = {}
     for key, columns in COLUMNS.items():
         with _collected(findings, key):
-            file = site.resolve_file((key,), getattr(item, key))
+            file = context.resolve_file((key,), getattr(item, key))
             tables[key] = read_table(file, columns, with_rest=key == "faces")
     if findings:
         raise ItemRefused(*findings)

@@ -19,7 +19,7 @@ from mbla.model.blocks.masonry.leg import NO_UNIT, Leg, Passage, Slopes, Void
 from mbla.model.blocks.masonry.masonry import Buttress, Masonry, Opening, OpeningArch
 
 USUAL_EMBRACE = 60.0
-"""degrees between the end joints of a flat arch unless given"""
+"""degrees between the end joints of a flat arch, by default"""
 
 
 @dataclass(frozen=True)

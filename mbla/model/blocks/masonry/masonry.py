@@ -31,7 +31,7 @@ class Lintel(Section):
 
     bearing: PositiveLength = Field(description="length that rests on the wall at either side")
     courses: Count = Field(1, description="its height in courses")
-    material: Name | None = Field(None, description="name of a material; that of the wall unless given")
+    material: Name | None = Field(None, description="name of a material; default: material of the wall")
 
 
 class OpeningArch(Section):
@@ -41,9 +41,9 @@ class OpeningArch(Section):
     courses: Count = Field(1, description="its height above the springing, in courses")
     rise: NonNegativeLength = Field(0.0, description="of the intrados; 0: a flat arch, else a segment of a circle")
     embrace: EmbraceAngle | None = Field(
-        None, description="of a flat arch: degrees between its end joints, below 180; 60 unless given"
+        None, description="of a flat arch: degrees between its end joints, below 180; default: 60"
     )
-    material: Name | None = Field(None, description="name of a material; that of the wall unless given")
+    material: Name | None = Field(None, description="name of a material; default: material of the wall")
 
 
 class Opening(Section):
@@ -83,7 +83,7 @@ class Gable(Section):
     """Triangle on top of a wall, over its full length, the courses cut to its slopes."""
 
     rise: PositiveLength = Field(description="height of the apex above the top of the wall")
-    apex: Length | None = Field(None, description="distance of the apex along the wall; the middle unless given")
+    apex: Length | None = Field(None, description="distance of the apex along the wall; default: the middle")
 
 
 class Buttress(Section):

@@ -9,7 +9,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.errors import Finding
-from mbla.model.blocks.generated import Generated, ItemRefused, Part, Site
+from mbla.model.blocks.generated import Generated, ItemContext, ItemRefused, Part
 from mbla.model.blocks.masonry.additions import (
     PlacedButtress,
     PlacedOpening,
@@ -56,7 +56,7 @@ class _Wall:
     meets: tuple[tuple[int, Passage], ...]
 
 
-def build_walls(given: Walls, name: str, site: Site) -> Generated:
+def build_walls(given: Walls, name: str, context: ItemContext) -> Generated:
     """Blocks of walls; ``name`` is that of their group.
 
     Raises ItemRefused with all that does not fit.
@@ -66,7 +66,7 @@ def build_walls(given: Walls, name: str, site: Site) -> Generated:
         raise ItemRefused(*findings)
     sound: list[tuple[int, int, Opening]] = []
     for number, (segment, opening) in enumerate(given.openings):
-        found = [each.below("openings", number) for each in check_opening(item, opening, site.tolerance)]
+        found = [each.below("openings", number) for each in check_opening(item, opening, context.tolerance)]
         findings += found
         sound += [] if found else [(number, segment, opening)]
     against = [(n, segment, each) for n, (segment, each) in enumerate(given.buttresses)]

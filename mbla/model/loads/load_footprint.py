@@ -37,7 +37,7 @@ def on_blocks(landed: Sequence[Spread], forces: FloatArray, site: LoadSite) -> t
 
 
 @dataclass(frozen=True)
-class Landing:
+class LoadFootprint:
     """How loads of one entry of the deck land.
 
     below : blocks that they may land on; through : the fill on which they stand, None for none
