@@ -57,12 +57,14 @@ G = 9.81
 SHEET = np.array([[9.0, 0, 0], [9.0, 1, 0], [9.0, 1, 3], [9.0, 0, 3]])[::-1]
 """a surface at x = 9, seen from smaller x"""
 ASSESSED = AssessmentSection.model_validate({"spectra": {"SLV": {"table": [[0.0, 0.2], [2.0, 0.1]]}}})
+DOUBT = Message("assessment-in-doubt", "the curve has rough steps")
 VERDICT = Assessment(
     "NTC 2018 with Circolare 7/2019",
     (
         Figure("", "a_0*", 0.7, "m/s2", "[C8.7.1.8]", "alpha_0 g/(e* FC): it begins"),
         Figure("SLV", "zeta", 0.9, "", "C8.7.1.2.1.7", "q a_g,0/a_g, by alpha_0 alone"),
     ),
+    (DOUBT,),
 )
 
 
@@ -302,6 +304,7 @@ def full_solution(solution: Solution) -> Solution:
         remarks=(
             Message("elastic-path-rises", "the load still rises"),
             Message("tilt-by-steps", "one more"),
+            DOUBT,
         ),
         least=replace(mechanics, load_factor=0.45),
         torsion=replace(mechanics, load_factor=0.42),
