@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from mbla.errors import Notice
 from mbla.results.explanations import Explanation, explanations
 from mbla.results.listing.answers import answer_columns, bound_figures, status_words
-from mbla.results.listing.blocks import Block
+from mbla.results.listing.blocks import Block, ListingSection
 from mbla.results.listing.listing import case_sections
 from mbla.results.outcome import case_notices, result_of
 from mbla.results.report.figures import Figures
@@ -40,13 +40,10 @@ def notice_kinds(notices: Sequence[Notice]) -> list[NoticeKind]:
 # --- A load case in a report -----------------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True)
-class Part:
-    """One titled part of a load case."""
-
-    id: str
-    title: str
-    blocks: list[Block]
+LEADING = ("Mechanism", "Pushover", "Assessment", "Load factor and bounds")
+"""sections of a load case that a client reads first"""
+OF_LISTING = ("Reductions", "Path of elastic joints", "Solver programs")
+"""how it was computed: the listing has these sections, the report does not"""
 
 
 @dataclass(frozen=True)
@@ -55,7 +52,7 @@ class CaseContent:
 
     tone  : how it may look, see ``tone_of``
     alarm : what a reader must know before any figure; empty for a verified load factor
-    words : verdict and failure; ``parts`` are the other sections of the listing
+    words : verdict and failure; ``parts`` are other sections of the listing
     view  : trusted HTML of the view to turn; empty without one
     """
 
@@ -65,7 +62,7 @@ class CaseContent:
     tone: str
     alarm: str
     words: list[Block]
-    parts: list[Part]
+    parts: list[ListingSection]
     figures: Figures
     warnings: tuple[str, ...]
     view: str
@@ -74,15 +71,17 @@ class CaseContent:
 def case_content(results: Results, case: CaseResult, number: int, figures: Figures, view: str) -> CaseContent:
     """The content of load case ``number``, from 1."""
     key = f"case-{number}"
-    verdict_section, *others = case_sections(results.assembly, case)
+    sections = {section.title: section for section in case_sections(results.assembly, case)}
+    first = sections.pop("Verdict")
+    order = [*(title for title in LEADING if title in sections), *(title for title in sections if title not in LEADING)]
     return CaseContent(
         id=key,
         name=case.load_case.name,
         status=status_words(case.status),
         tone=tone_of(case),
         alarm=alarm_of(case),
-        words=verdict_section.blocks,
-        parts=[Part(f"{key}-{o.title.lower().replace(' ', '-')}", o.title, o.blocks) for o in others],
+        words=first.blocks,
+        parts=[sections[title] for title in order if title not in OF_LISTING],
         figures=figures,
         warnings=tuple(str(notice) for notice in case_notices(case)),
         view=view,

@@ -48,14 +48,14 @@ class Figures:
 
 
 def case_figures(results: Results, case: CaseResult) -> Figures:
-    """Mechanism, forces where there are any, and history of a case; of a travelling load that of all its positions."""
+    """Mechanism, capacity curve of a pushover, and forces where there are any."""
     name, solution = case.load_case.name, case.solution
     no_result = ", best iterate, no result" if best_iterate(case) is not None else ""
     captions = {"mechanism": f"Motion of load case {name}{no_result}"}
+    if solution.further.pushover.curve:
+        captions["curve"] = f"Capacity curve of load case {name}: load over displacement"
     if solution.mechanics is not None or solution.lock is not None:
         captions["forces"] = f"Contact forces of load case {name}{no_result}"
-    if case.load_case.travel is None and (solution.iterations or solution.path):
-        captions["history"] = f"Iteration history of load case {name}: load factor and residuals"
     return _drawn(results, case, captions, None)
 
 
@@ -85,7 +85,7 @@ def _drawn(results: Results, case: CaseResult, captions: dict[str, str], view: V
     found = Figures((), view=view)
     for kind, caption in captions.items():
         scene, options, format = scene_of(results, case, OPTIONS, kind), OPTIONS, "svg"
-        if kind != "history" and flat_of(scene, options.view, kind) is None:
+        if kind != "curve" and flat_of(scene, options.view, kind) is None:
             found = replace(found, view=found.view or view_of_case(scene))
             options, format = replace(OPTIONS, view=found.view), "png"
         words = _in_words(results, case, kind)
@@ -112,6 +112,6 @@ def _in_words(results: Results, case: CaseResult, kind: str) -> str:
     shown = {
         "mechanism": "The structure as it moves",
         "forces": "Resultants at the interfaces and lines of thrust",
-        "history": "Load factor and residuals over the iterations of the solvers",
+        "curve": "Load over the displacement of the control point in a pushover",
     }
     return f"{shown[kind]}; load case {case.load_case.name}: {verdict(model, case)}"

@@ -19,11 +19,13 @@ from mbla import __version__
 from mbla.errors import FileError, UsageError
 from mbla.results.disk import write_complete
 from mbla.results.listing.answers import series_section
+from mbla.results.listing.assessment_words import code_verdict
 from mbla.results.listing.contact_words import contact_section, finding_sections
 from mbla.results.listing.model_words import model_sections, settings_section
-from mbla.results.listing.text import counted, number
-from mbla.results.listing.verdict_words import bound_words, reasons, verdict
+from mbla.results.listing.text import counted, full_sentence, number
+from mbla.results.listing.verdict_words import bound_words, least_words, reasons, verdict
 from mbla.results.outcome import notices_of
+from mbla.results.report.assumptions import assumptions
 from mbla.results.report.content import CaseContent, case_content, notice_kinds, verdict_table
 from mbla.results.report.figures import Figures, case_figures, model_figures, series_figures
 from mbla.results.results import CaseResult, Results
@@ -114,6 +116,7 @@ def _content(results: Results, shown: Results, detailed: Results, cases: list[Ca
         "series": [(series_section(model, series), series_figures(shown, series)) for series in series_of(shown.cases)],
         "model_figures": model_figures(shown, cases[0].figures.view if cases else None),
         "model": [*model_sections(model), contact_section(model, contacts), *finding_sections(model, contacts.report)],
+        "assumptions": assumptions(shown),
         "notices": notice_kinds(notices_of(shown)),
         "settings": settings_section(results),
         "provenance": results.provenance,
@@ -128,11 +131,12 @@ def _warning_words(shown: Results) -> str:
     return f"{counted(len(warnings), 'warning')}; see below." if warnings else "No warnings."
 
 
-def _in_words(results: Results, case: CaseResult) -> tuple[str, str, list[str]]:
-    """Name, verdict and further sentences: the words of the terminal."""
+def _in_words(results: Results, case: CaseResult) -> tuple[str, str, str, list[str]]:
+    """Name, verdict, what a code says and further sentences: the least found, what is known where little is."""
     model = results.model.of_case(case.load_case)
-    further = (*reasons(case), bound_words(model, case))
-    return case.load_case.name, f"{verdict(model, case)}.", [text for text in further if text]
+    further = (least_words(model, case), *reasons(case), bound_words(model, case))
+    told = [full_sentence(text) for text in further if text]
+    return case.load_case.name, f"{verdict(model, case)}.", full_sentence(code_verdict(case)), told
 
 
 # --- The page -------------------------------------------------------------------------------------------------------

@@ -13,7 +13,7 @@ from mbla.results.report.figures import case_figures, model_figures, series_figu
 from mbla.results.results import CaseResult, Results
 from mbla.results.series import series_of
 from mbla.solution.solution import Status
-from tests.results.synthetic import standing_at, tower_results
+from tests.results.synthetic import full_results, standing_at, tower_results
 
 
 @pytest.fixture
@@ -39,9 +39,9 @@ def changed(status: Status, **changes: Any) -> tuple[Results, CaseResult]:
 @pytest.mark.parametrize(
     ("status", "changes", "captions"),
     [
-        (Status.SOLVED, {}, ["Motion of", "Contact forces of", "Iteration history of"]),
-        (Status.NOT_VERIFIED, {"iterations": ()}, ["Motion of", "Contact forces of"]),
-        (Status.NO_EQUILIBRIUM, {"mechanics": None, "certificate": np.ones((3, 6)), "iterations": ()}, ["Motion of"]),
+        (Status.SOLVED, {}, ["Motion of", "Contact forces of"]),
+        (Status.NOT_VERIFIED, {}, ["Motion of", "Contact forces of"]),
+        (Status.NO_EQUILIBRIUM, {"mechanics": None, "certificate": np.ones((3, 6))}, ["Motion of"]),
     ],
 )
 @pytest.mark.usefixtures("asked")
@@ -68,7 +68,6 @@ def test_pictures_in_space_have_one_view_that_is_looked_for_once(
     assert [(kind, options.view) for kind, options in asked] == [
         ("mechanism.png", (12.0, 34.0)),
         ("forces.png", (12.0, 34.0)),
-        ("history.svg", None),
     ]
     assert len(views) == 1
     model_figures(results, (56.0, 7.0))
@@ -87,7 +86,7 @@ def test_what_the_machine_cannot_draw_is_said_in_its_place(monkeypatch: pytest.M
     monkeypatch.setattr("mbla.results.pictures.plot.draw_picture", draw)
     results = tower_results()
     found = case_figures(results, results.cases[0])
-    assert [picture.caption.split()[0] for picture in found.pictures] == ["Contact", "Iteration"]
+    assert [picture.caption.split()[0] for picture in found.pictures] == ["Contact"]
     assert found.missing.startswith("pictures need OpenGL")
 
 
@@ -109,3 +108,11 @@ def test_several_positions_of_a_travelling_load_have_a_diagram(positions: int) -
     assert [picture.caption for picture in case_figures(results, cases[0]).pictures] == [
         f"{what} of load case train@0" for what in ("Motion", "Contact forces")
     ]
+
+
+@pytest.mark.usefixtures("asked")
+def test_a_pushover_has_its_curve() -> None:
+    results = full_results()
+    pushed = next(case for case in results.cases if case.solution.further.pushover.curve)
+    captions = [picture.caption.partition(" of load case")[0] for picture in case_figures(results, pushed).pictures]
+    assert captions == ["Motion", "Capacity curve", "Contact forces"]
