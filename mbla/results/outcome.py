@@ -274,14 +274,14 @@ def ultimate_displacement(case: CaseResult, sure: bool = True) -> float:
     verified.
     """
     curve = case.solution.further.pushover.curve
-    if sure and not curve_residual(case) <= APPROXIMATE_RESIDUAL:
+    if len(curve) < 2 or (sure and not curve_residual(case) <= APPROXIMATE_RESIDUAL):
         return math.nan
     behind = [row.step for row in curve[1:] if row.load_factor <= 0.0]
     if behind and case.load_case.question.multiplies:
         curve = curve[: behind[0] + 1]
-    elif len(curve) > 1 and case.solution.further.pushover.curve_end in (CurveEnd.FALLS, CurveEnd.NOT_CARRIED):
+    elif case.solution.further.pushover.curve_end in (CurveEnd.FALLS, CurveEnd.NOT_CARRIED):
         return curve[-1].displacement
-    elif len(curve) < 2 or case.solution.further.pushover.curve_end is not CurveEnd.NOTHING_LEFT:
+    elif case.solution.further.pushover.curve_end is not CurveEnd.NOTHING_LEFT:
         return math.nan
     before, last = curve[-2:]
     share = before.load_factor / (before.load_factor - last.load_factor)

@@ -232,6 +232,9 @@ def _axes(
     The axis lies in the plane of the interface through the mean of its closed points. Where these crush it is the line
     between those that close and those that open, at which the normal velocity w + (n × ω)·(x − mean) vanishes.
     """
+    if not hinges.any():
+        nowhere = np.full((len(contacts), 3), np.nan)
+        return nowhere, nowhere, np.full((len(contacts), 2, 3), np.nan)
     closed = np.where(is_open, 0.0, 1.0)
     weight = np.maximum(sum_by_interface(contacts, closed), 1.0)
     mean = sum_by_interface(contacts, closed[:, None] * contacts.points) / weight[:, None]

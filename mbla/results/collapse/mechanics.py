@@ -157,6 +157,14 @@ def reactions_of(
 
     Fixed and guided blocks stand one by one where they are few, else, or ``by_group``, their groups do.
     """
+    supports = support_reactions(model, contacts, mechanics.contact_forces, by_group=by_group)
+    guides = _guide_reactions(model, contacts, load_case, mechanics, by_group) if len(model.guides.blocks) else ()
+    return (*supports, *guides, *_tie_reactions(model, mechanics.tie_forces))
+
+
+def _guide_reactions(
+    model: Model, contacts: Contacts, load_case: LoadCase, mechanics: Mechanics, by_group: bool
+) -> tuple[Reaction, ...]:
     blocks = model.guides.blocks
     acting = acting_with_ties(model, contact_resultants(model, contacts, mechanics.contact_forces), mechanics)
     taken = -(acting + load_case.dead_load + mechanics.load_factor * load_case.live_load)[blocks]
@@ -166,11 +174,17 @@ def reactions_of(
         f"guide of {model.body_name(block)}" if single else f"guides of {model.blocks.groups[block]}"
         for block in blocks.tolist()
     ]
-    supports = support_reactions(model, contacts, mechanics.contact_forces, by_group=by_group)
-    tied, pulls = pulls_of_ties(model, mechanics)
+    return _by_name(names, taken)
+
+
+def _tie_reactions(model: Model, tie_forces: FloatArray | None) -> tuple[Reaction, ...]:
+    """What ties and fill that supports hold do to the structure."""
+    if tie_forces is None:
+        return ()
+    tied, pulls = pulls_of_ties(model, tie_forces)
     held = np.append(model.fixed, True)[tied]
-    holders = np.where(model.ties.of_fill[model.ties.tie_of_point], SOIL, TIED)[: len(tied)]  # of none without forces
-    return (*supports, *_by_name(names, taken), *_by_name(holders[held].tolist(), -pulls[held]))
+    holders = np.where(model.ties.of_fill[model.ties.tie_of_point], SOIL, TIED)
+    return _by_name(holders[held].tolist(), -pulls[held])
 
 
 def support_reactions(

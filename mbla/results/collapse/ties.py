@@ -56,6 +56,8 @@ class TieRow:
 def tie_rows(model: Model, mechanics: Mechanics | None) -> tuple[TieRow, ...]:
     """All ties of a model, with what they do in a mechanism where there is one."""
     ties = model.ties
+    if not len(ties):
+        return ()
     unknown = np.full(len(ties), np.nan)
     forces = unknown if mechanics is None or mechanics.tie_forces is None else mechanics.tie_forces
     rates = unknown if mechanics is None or mechanics.tie_rates is None else mechanics.tie_rates
@@ -136,7 +138,9 @@ def tie_power(mechanics: Mechanics) -> float:
 
 def acting_with_ties(model: Model, acting: FloatArray, mechanics: Mechanics) -> FloatArray:
     """Forces and moments about centroids, (n_blocks, 6) N, N m, with those of ties on the blocks added."""
-    bodies, pulls = pulls_of_ties(model, mechanics)
+    if mechanics.tie_forces is None:
+        return acting
+    bodies, pulls = pulls_of_ties(model, mechanics.tie_forces)
     on_blocks = bodies != OUTSIDE
     block, about, total = bodies[on_blocks], pulls[on_blocks], acting.copy()
     about[:, 3:] -= np.cross(model.blocks.centroids[block], about[:, :3])
@@ -144,10 +148,11 @@ def acting_with_ties(model: Model, acting: FloatArray, mechanics: Mechanics) -> 
     return total
 
 
-def pulls_of_ties(model: Model, mechanics: Mechanics) -> tuple[IntArray, FloatArray]:
-    """Block at each point of all ties, or OUTSIDE, (m,), and force and moment about the origin on it, (m, 6) N, N m."""
+def pulls_of_ties(model: Model, tie_forces: FloatArray) -> tuple[IntArray, FloatArray]:
+    """Block at each point of all ties, or OUTSIDE, (m,), and force and moment about the origin on it, (m, 6) N, N m.
+
+    tie_forces : (n_ties,) N, nan where not known
+    """
     ties = model.ties
-    if mechanics.tie_forces is None:
-        return np.zeros(0, dtype=np.int64), np.zeros((0, 6))
-    forces = np.nan_to_num(mechanics.tie_forces)[ties.tie_of_point, None] * ties.pulls
+    forces = np.nan_to_num(tie_forces)[ties.tie_of_point, None] * ties.pulls
     return ties.bodies, np.hstack([forces, np.cross(ties.places, forces)])

@@ -102,7 +102,7 @@ def _forces(
             *group_reaction_blocks(held, contacts, mechanics),
             *freedom_blocks(contacts, case, freedom),
         ],
-        tie_title(model): tie_force_blocks(model, mechanics),
+        tie_title(model): tie_force_blocks(model, mechanics) if len(model.ties) else [],
     }
 
 

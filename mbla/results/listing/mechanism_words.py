@@ -169,13 +169,13 @@ T = TypeVar("T", HingeLine, SlidingPlane, Crack)
 
 def mechanism_blocks(assembly: Assembly, load_case: LoadCase, failure: Failure) -> list[Block]:
     """Parts, then a table each for hinge lines, sliding planes and cracks."""
-    model, contacts, outward = assembly.model, assembly.contacts, curvature_sides(assembly.glued(load_case))
-    return [
-        *part_table(model, failure.motions),
-        *apart(_hinge_table(model, contacts, outward, failure.hinge_lines)),
-        *apart(_sliding_table(model, contacts, failure.sliding_planes)),
-        *apart(_crack_table(model, contacts, failure.cracks)),
-    ]
+    model, contacts, blocks = assembly.model, assembly.contacts, part_table(assembly.model, failure.motions)
+    if failure.hinge_lines:
+        outward = curvature_sides(assembly.glued(load_case))
+        blocks += apart(_hinge_table(model, contacts, outward, failure.hinge_lines))
+    if failure.sliding_planes:
+        blocks += apart(_sliding_table(model, contacts, failure.sliding_planes))
+    return blocks + (apart(_crack_table(model, contacts, failure.cracks)) if failure.cracks else [])
 
 
 def part_table(model: Model, motions: Sequence[PartMotion]) -> list[Block]:

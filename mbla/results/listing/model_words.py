@@ -68,11 +68,11 @@ def settings_section(results: Results) -> ListingSection:
 def model_sections(model: Model) -> list[ListingSection]:
     """Blocks by group, joint laws; supports; ties; loads of every case."""
     tables = [*apart(_group_table(model)), *apart(_labels(model)), *apart(_joint_table(model))]
-    ties = tie_blocks(model)
+    ties = [ListingSection(tie_title(model), tie_blocks(model))] if len(model.ties) else []
     return [
         ListingSection("Model", [*facts(_size(model)), *tables]),
         ListingSection("Supports", _supports(model)),
-        *([ListingSection(tie_title(model), ties)] if ties else []),
+        *ties,
         ListingSection("Loads", [block for case in model.load_cases for block in _loads(case)]),
     ]
 

@@ -16,7 +16,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
 from mbla.contacts.contacts import Contacts
-from mbla.model.model import Model
+from mbla.model.model import LoadCase, Model
 from mbla.model.solids.blocks import Blocks
 from mbla.questions.travel import TravelPosition
 from mbla.results.collapse.interface_modes import sum_by_interface
@@ -113,9 +113,11 @@ def _of_vehicle(travel: TravelPosition | None) -> tuple[Vectors, ...]:
 
 def _reactions(scene: Scene) -> tuple[Vectors, ...]:
     """What supports do to the structure at each interface with one, and guides at each guided block."""
-    if scene.forces is None:
+    case, forces, guided = scene.case, scene.forces, len(scene.model.guides.blocks) > 0
+    if forces is None:
         return ()
-    return _of_supports(scene, scene.forces), _of_guides(scene, scene.forces)
+    guides = (_of_guides(scene, case.load_case, forces),) if guided and case is not None else ()
+    return _of_supports(scene, forces), *guides
 
 
 def _of_supports(scene: Scene, forces: FloatArray) -> Vectors:
@@ -136,19 +138,16 @@ def _of_supports(scene: Scene, forces: FloatArray) -> Vectors:
     return Vectors(REACTION, bodies, points[rows], sums[:, :3], sums[:, 3:])
 
 
-def _of_guides(scene: Scene, forces: FloatArray) -> Vectors:
+def _of_guides(scene: Scene, load_case: LoadCase, forces: FloatArray) -> Vectors:
     """At the centroid of each guided block: what leaves it in balance. Forces that lock balance the live load alone."""
     model: Model = scene.model
     bodies = model.guides.blocks
-    case = scene.case
-    if case is None or not len(bodies):
-        return Vectors(GUIDE, bodies[:0], np.zeros((0, 3)), np.zeros((0, 3)), np.zeros((0, 3)))
     acting = contact_resultants(model, scene.contacts, forces)
     if scene.mechanics is None:
-        acting = acting + case.load_case.live_load
+        acting = acting + load_case.live_load
     else:
         acting = acting_with_ties(model, acting, scene.mechanics)
-        acting = acting + case.load_case.dead_load + scene.mechanics.load_factor * case.load_case.live_load
+        acting = acting + load_case.dead_load + scene.mechanics.load_factor * load_case.live_load
     taken = -acting[bodies]
     return Vectors(GUIDE, bodies, model.blocks.centroids[bodies], taken[:, :3], taken[:, 3:])
 
