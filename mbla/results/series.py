@@ -77,6 +77,8 @@ def detailed_cases(cases: Sequence[CaseResult]) -> tuple[CaseResult, ...]:
     The position that is pushed, too.
     """
     travelling = series_of(cases)
+    if not travelling:
+        return tuple(cases)
     names = {case.load_case.name for case in cases}
     names -= {case.load_case.name for series in travelling for case in series.cases}
     for series in travelling:

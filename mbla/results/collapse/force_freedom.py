@@ -227,9 +227,10 @@ def enough_of(model: Model, contacts: Contacts, parts: IntArray) -> Enough:
     on_moving = moves[contacts.bodies].any(axis=1)
     touched = np.zeros(len(moves), dtype=bool)
     touched[contacts.bodies[on_moving]] = True
-    links = model.ties.links(n_blocks + len(model.grounds))
-    links = links[(links < n_blocks).all(axis=1)]
-    touched[links[moves[links].any(axis=1)]] = True
+    if len(model.ties):
+        links = model.ties.links(n_blocks + len(model.grounds))
+        links = links[(links < n_blocks).all(axis=1)]
+        touched[links[moves[links].any(axis=1)]] = True
     rests = ~model.fixed & (parts == 0)
     return Enough(
         moving=np.flatnonzero(parts > 0),

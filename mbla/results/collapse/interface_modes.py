@@ -153,16 +153,15 @@ def interface_motion(model: Model, contacts: Contacts, mechanics: Mechanics) -> 
     slides = moving & (sum_by_interface(contacts, mechanics.modes == ContactMode.SLIDE) > 0)
     is_crushing = mechanics.modes == ContactMode.CRUSH
     crushes = moving & (sum_by_interface(contacts, is_crushing) > 0)
-    closes_more = largest_by_interface(contacts, np.where(is_crushing, -opening, 0.0)) >= largest_by_interface(
-        contacts, sliding
-    )
     opens_more = largest_by_interface(contacts, np.where(is_open, opening, 0.0)) >= largest_by_interface(
         contacts, np.where(is_open, 0.0, sliding)
     )
     modes = np.full(len(contacts), int(InterfaceMode.STICK), dtype=np.int64)
     modes[slides] = InterfaceMode.SLIDE
     modes[slides & _turns_about_normal(contacts, translation, rotation)] = InterfaceMode.TWIST
-    modes[crushes & (closes_more | ~slides)] = InterfaceMode.CRUSH
+    if crushes.any():
+        closes = largest_by_interface(contacts, np.where(is_crushing, -opening, 0.0))
+        modes[crushes & ((closes >= largest_by_interface(contacts, sliding)) | ~slides)] = InterfaceMode.CRUSH
     partly = moving & (n_open > 0)
     modes[partly] = InterfaceMode.SLIDE
     modes[partly & opens_more] = InterfaceMode.HINGE

@@ -122,6 +122,8 @@ def hinge_lines(
 ) -> tuple[HingeLine, ...]:
     """Those between different clusters, by falling share of the motion, then by their first interface."""
     hinges = np.flatnonzero((motion.modes == InterfaceMode.HINGE) & joints.between)
+    if not len(hinges):
+        return ()
     directions = joints.signs[:, None] * motion.hinge_directions
     size, parallel = interface_radii(contacts), loosened(SAME_DIRECTION, merged)
 
@@ -211,6 +213,8 @@ def sliding_planes(
     """Those between different clusters, by falling work of the shear forces, then by falling motion."""
     kinds = (InterfaceMode.SLIDE, InterfaceMode.TWIST)
     sliding = np.flatnonzero(np.isin(motion.modes, kinds) & joints.between)
+    if not len(sliding):
+        return ()
     normals = joints.signs[:, None] * contacts.normals
     travel = joints.signs[:, None] * motion.translation
     travel -= np.einsum("ij,ij->i", travel, normals)[:, None] * normals

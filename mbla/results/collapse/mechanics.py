@@ -79,10 +79,6 @@ def work_of(model: Model, contacts: Contacts, load_case: LoadCase, mechanics: Me
     strength = frictional + limits.cohesion
     share = np.divide(limits.cohesion, strength, out=np.zeros_like(strength), where=strength > 0)
 
-    def by_interface(values: FloatArray) -> FloatArray:
-        sums = np.bincount(contacts.interface_of_point, weights=values, minlength=len(contacts))
-        return np.asarray(sums, dtype=np.float64)
-
     live = float(mechanics.load_factor * np.sum(load_case.live_load[free] * mechanism))
     question = load_case.question
     if isinstance(question, Force):  # in which the cut opens by 1/U
@@ -90,9 +86,9 @@ def work_of(model: Model, contacts: Contacts, load_case: LoadCase, mechanics: Me
     return Work(
         live=live,
         dead=float(np.sum(load_case.dead_load[free] * mechanism)),
-        friction=by_interface(shear * (1.0 - share)),
-        cohesion=by_interface(shear * share),
-        normal=by_interface(power[:, 0]),
+        friction=sum_by_interface(contacts, shear * (1.0 - share)),
+        cohesion=sum_by_interface(contacts, shear * share),
+        normal=sum_by_interface(contacts, power[:, 0]),
         ties=tie_power(mechanics),
         reference=_largest_power(load_case.dead_load[free], mechanism),
     )

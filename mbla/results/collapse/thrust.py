@@ -199,6 +199,8 @@ def interface_chains(bodies: RigidBodies) -> tuple[IntArray, ...]:
     inner = ~model.fixed & (degree == 2)
     neighbours: list[list[int]] = [[] for _ in range(len(pairs))]
     ends, side = np.nonzero(np.append(inner, np.zeros(len(model.grounds), dtype=bool))[pairs])
+    if not len(ends):
+        return ()
     owner = pairs[ends, side]
     order = np.argsort(owner, kind="stable")
     for first, second in ends[order].reshape(-1, 2).tolist():
