@@ -24,39 +24,31 @@ NOTABLE_MISS = 0.02
 
 def curve_words(model: Model, case: CaseResult) -> str:
     """Greatest load factor, where it ends, and how well that is known; empty without a pushover."""
-    curve, length = case.solution.further.pushover.curve, model.units.length
+    pushed, length, question = case.solution.further.pushover, model.units.length, case.load_case.question
+    curve, errors = pushed.curve, np.array([row.error for row in pushed.curve])
     if not curve:
         return ""
-    last, words, end = (
-        curve[-1],
-        case.solution.further.pushover.curve_end.value,
-        case.solution.further.pushover.curve_end_error,
-    )
-    if case.load_case.question.group == "reaction":
-        force, scale = model.units.force, case.load_case.question.scale
-        reaction = within(last.reaction, case.solution.further.pushover.curve_last_error * scale)
+    last, words, end = curve[-1], pushed.curve_end.value, pushed.curve_end_error
+    if question.group == "reaction":
+        force, reaction = model.units.force, within(last.reaction, pushed.curve_last_error * question.scale)
         says = f"Followed over {counted(len(curve) - 1, 'step')}: a reaction of {reaction} {force} where "
         says += f"the support has moved by {within(last.displacement, end)} {length}, where {words}"
     else:
         top = max(curve, key=lambda row: row.load_factor)
         highest = row_words(model, case.load_case, top)
-        says = (
-            f"Pushover of {counted(len(curve) - 1, 'step')}: at most {highest} at {number(top.displacement)} {length}; "
-        )
+        says = f"Pushover of {counted(len(curve) - 1, 'step')}: at most {highest} at "
+        says += f"{number(top.displacement)} {length}; "
         ultimate = ultimate_displacement(case, sure=False)
-        if case.solution.further.pushover.curve_end is CurveEnd.NOTHING_LEFT:
+        if pushed.curve_end is CurveEnd.NOTHING_LEFT:
             says += f"nothing at {within(ultimate, end)} {length}"
         else:
             says += f"nothing at {number(ultimate)} {length}; " if last.load_factor < 0.0 else ""
             says += f"{row_words(model, case.load_case, last)} at {within(last.displacement, end)} {length}"
             says += f", where {words}"
-    errors = np.array([row.error for row in curve])
     if np.isfinite(errors).any():
-        question = case.load_case.question
         values = [row.reaction / question.scale if question.group == "reaction" else row.load_factor for row in curve]
-        says += (
-            f"; steps of twice the size differ by up to {np.nanmax(errors) / np.abs(values).max():.1g} of the greatest"
-        )
+        share = np.nanmax(errors) / np.abs(values).max()
+        says += f"; steps of twice the size differ by up to {share:.1g} of the greatest"
     if broken := curve[-1].broken:
         first = next(row.displacement for row in curve if row.broken)
         says += f"; {counted(broken, 'tie')} broken, the first at {number(first)} {length}"
@@ -105,20 +97,21 @@ def row_words(model: Model, load_case: LoadCase, row: CurveRow) -> str:
 
 def curve_verdict(case: CaseResult, length: str) -> str:
     """How well the steps of a pushover meet the joint law, as code that did not solve them finds."""
-    residuals = [row.residual for row in case.solution.further.pushover.curve[1:]]
+    pushed = case.solution.further.pushover
+    residuals = [row.residual for row in pushed.curve[1:]]
     rough = sum(not residual <= SOLVED_RESIDUAL for residual in residuals)
     worst = curve_residual(case)
     if not residuals:
         return "No step could be made."
-    if not rough and (share := step_dependence(case.load_case, case.solution.further.pushover)) > STEP_DEPENDENCE:
+    if not rough and (share := step_dependence(case.load_case, pushed)) > STEP_DEPENDENCE:
         says = f"Approximate: every step meets equilibrium and the joint law to {worst:.1g}, but figures depend on the "
         return f"{says}size of the steps: with twice the size they change by up to {share:.2g} of the greatest."
     if not rough:
-        overlap = max(row.overlap for row in case.solution.further.pushover.curve)
+        overlap = max(row.overlap for row in pushed.curve)
         says = f"Verified: every step meets equilibrium and the joint law to {worst:.1g}"
-        crushes = any(row.crushing for row in case.solution.further.pushover.curve)
+        crushes = any(row.crushing for row in pushed.curve)
         says += f", {'points are crushed' if crushes else 'blocks overlap'} by {overlap:.1g} {length} at most"
-        missing = abs(energy_missing(case.solution.further.pushover.curve, _small_energy(case)))
+        missing = abs(energy_missing(pushed.curve, _small_energy(case)))
         return (
             f"{says}." if missing < NOTABLE_MISS else f"{says}; {missing:.2g} of the energy is lost where blocks drop."
         )

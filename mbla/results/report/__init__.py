@@ -1,1 +1,1 @@
-"""The report: one HTML file with everything of a result; it opens without a network and prints as PDF."""
+"""The report: one HTML file of a result for a client; it opens without a network and prints as PDF."""

@@ -20,6 +20,7 @@ from mbla.errors import FileError, UsageError
 from mbla.results.disk import write_complete
 from mbla.results.listing.answers import series_section
 from mbla.results.listing.assessment_words import code_verdict
+from mbla.results.listing.blocks import Fact, ListingSection, facts
 from mbla.results.listing.contact_words import contact_section, finding_sections
 from mbla.results.listing.model_words import model_sections, settings_section
 from mbla.results.listing.text import counted, full_sentence, number
@@ -118,12 +119,17 @@ def _content(results: Results, shown: Results, detailed: Results, cases: list[Ca
         "model": [*model_sections(model), contact_section(model, contacts), *finding_sections(model, contacts.report)],
         "assumptions": assumptions(shown),
         "notices": notice_kinds(notices_of(shown)),
-        "settings": settings_section(results),
-        "provenance": results.provenance,
-        "time": {stage: number(round(seconds, 3)) for stage, seconds in results.time.items()},
-        "exit_code": results.exit_code,
-        "files": results.files,
+        "settings": [settings_section(results), *_of_the_run(results)],
     }
+
+
+def _of_the_run(results: Results) -> list[ListingSection]:
+    """When it was, how long it took, what it wrote; versions of the program and of its libraries."""
+    run = {"date": results.created, "exit status": str(results.exit_code)}
+    run |= {f"seconds to {stage}": number(round(seconds, 3)) for stage, seconds in results.time.items()}
+    run |= {"deck hash (SHA-256)": results.deck.sha256, "files": ", ".join(results.files) or "-"}
+    told = {"Run": run, "Versions and platform": results.provenance}
+    return [ListingSection(title, facts(Fact(*row) for row in rows.items())) for title, rows in told.items()]
 
 
 def _warning_words(shown: Results) -> str:
