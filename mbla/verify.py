@@ -5,8 +5,8 @@ prove an answer for the arrays of a file, and that these arrays are the structur
 its texts and the meshes and tables that it names. Of every case the forces and mechanisms are taken, and all that
 follows from them is found again: velocities, modes, parts, work, residuals, bounds, the least state, standing, angle,
 status. The file that this gives must be the one at hand, dataset by dataset. So nothing in the file is trusted but the
-fields that say what the run alone can state (``unverified`` of :class:`mbla.results.record.quantity.Quantity`), which
-are marked in it and named in what is printed.
+fields that say what the run alone can state (``unverified`` of :class:`mbla.results.quantities.quantity.Quantity`),
+which are marked in it and named in what is printed.
 """
 
 from __future__ import annotations
@@ -18,21 +18,17 @@ from pathlib import Path
 
 import numpy as np
 
-from mbla.assembly import Assembly, build_assembly
 from mbla.codes.assess import assessment_of
 from mbla.deck import Deck
 from mbla.deck.deck import sha256_of
 from mbla.errors import DeckError, FileError, Notice
-from mbla.model import Model, build_model
 from mbla.model.model import LoadCase
-from mbla.model.settlement import with_reference
 from mbla.program.assemble import yield_limits
 from mbla.program.build import crushable_interfaces
-from mbla.questions.tilt import chord
 from mbla.results.exit_status import UNEXPECTED, exit_code
 from mbla.results.hdf5.content import content_of
 from mbla.results.hdf5.layout import Content, Value
-from mbla.results.hdf5.result_file import differences_of_file, read_results_hdf5, write_results_hdf5
+from mbla.results.hdf5.result_file import differences_of_file, read_asked, read_results_hdf5, write_results_hdf5
 from mbla.results.outcome import WITH_VALUE, least_factor, locked_in, presumes_standing
 from mbla.results.provenance import as_expected, deck_of, notices_of, settings_in_words, with_loads_found
 from mbla.results.results import CaseResult, PathAgain, PushoverAgain, Results
@@ -55,7 +51,7 @@ from mbla.solution.solution import Solution, Standing, Status
 from mbla.solution.thresholds import SOLVED_RESIDUAL
 from mbla.solution.verification.geometric_safety import proved
 from mbla.solution.verification.statics import load_scale
-from mbla.solution.verification.tilting_table import angle_of_load, found_angle, found_tangent, leads_across
+from mbla.solution.verification.tilting_table import found_angle, found_tangent
 from mbla.solution.verification.verify import level_bound, verify
 from mbla.solution.verification.verify_points import verified_status
 
@@ -69,7 +65,8 @@ def verify_file(path: Path, *, anew: bool = False) -> tuple[Results, tuple[str, 
     Raises FileError as ``read_results_hdf5`` does.
     """
     results = read_results_hdf5(path)
-    deck, disagreements = rebuilt(results)
+    deck, of_model = rebuilt(results, read_asked(path, [case.name for case in results.model.load_cases]))
+    disagreements, named = of_model, {text.split(" ", 1)[0] for text in of_model}
     again = recomputed(results, deck)
     unconfirmed: tuple[str, ...] = ()
     paths: list[PathAgain] = []
@@ -92,7 +89,8 @@ def verify_file(path: Path, *, anew: bool = False) -> tuple[Results, tuple[str, 
     disagreements += () if deck is None else tuple(differences_of_positions(deck, again))
     left_out = cases_left_out(results)
     unconfirmed += left_out if results.complete else ()  # a partial file says that it is one
-    disagreements += differences_of_file(path, write_results_hdf5(again))
+    of_file = differences_of_file(path, write_results_hdf5(again))
+    disagreements += tuple(text for text in of_file if text.split(" ", 1)[0] not in named)
     code = exit_code(again.cases, again.notices)  # of a stopped run the file has that of what stopped it
     proved = results.complete and not unconfirmed and not any(presumes_standing(case) for case in again.cases)
     if (disagreements or not proved) and code in (0, 5):
@@ -220,28 +218,31 @@ SAME, SAME_OF_LARGEST = 1e-9, 1e-12
 """Differences of entries, relative to them and to the largest of their kind, that are rounding of another machine."""
 
 
-def rebuilt(results: Results) -> tuple[Deck | None, tuple[str, ...]]:
-    """The deck in a file, None where it cannot be built, and where the file is not what follows from it, in words."""
+def rebuilt(results: Results, asked: Content) -> tuple[Deck | None, tuple[str, ...]]:
+    """The deck in a file, None where it cannot be read, and where the file is not what follows from it, in words.
+
+    asked : what the file holds of run, model, contacts and loads
+    """
     record = results.deck
     differences = []
     if sha256_of([*(text for _, text in record.sources), *record.overrides]) != record.sha256:
         differences.append("the hash of the deck is not that of its text")
     if record.sources[0][0] != record.name:
         differences.append("the deck does not have the name of its text")
-    deck, of_model = _read_again(results, expected=True)
+    deck, of_model = _read_again(results, asked, expected=True)
     if of_model:  # a study leaves expectations out, and what only they use is reported as not used
-        without, others = _read_again(results, expected=False)
+        without, others = _read_again(results, asked, expected=False)
         deck, of_model = (without, others) if deck is None or not others else (deck, of_model)
     return deck, (*differences, *of_model)
 
 
-def _read_again(results: Results, *, expected: bool) -> tuple[Deck | None, list[str]]:
+def _read_again(results: Results, asked: Content, *, expected: bool) -> tuple[Deck | None, list[str]]:
     """The deck with or without its expectations, None where it is not valid, and what of its model differs."""
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         try:
             deck = deck_of(results.deck, folder, expected=expected)
-            return deck, _differences(results, _content(deck, results, folder))
+            return deck, _differences(asked, _content(deck, results, folder))
         except (DeckError, FileError) as error:
             why = error.faults[0] if isinstance(error, DeckError) else error
             return None, [f"the deck in the file is not valid: {str(why).replace(f'{folder}/', '')}"]
@@ -249,13 +250,10 @@ def _read_again(results: Results, *, expected: bool) -> tuple[Deck | None, list[
 
 def _content(deck: Deck, results: Results, folder: Path) -> Content:
     """The content of a file of the deck's model, without what only solving finds."""
-    model = build_model(deck)
-    assembly = _with_loads_of_file(build_assembly(deck, model), results.model)
     threads = {name: words for name, words in results.settings.items() if name == "threads"}  # no deck says them
     built = replace(
         results,
-        assembly=assembly,
-        notices=notices_of(deck, assembly),
+        notices=notices_of(deck, results.assembly),
         settings=settings_in_words(deck, solver_settings(deck.analysis)) | threads,
     )
     if deck.content.expected and any(notice.identifier == UNEXPECTED for notice in results.notices):
@@ -275,35 +273,7 @@ def _placed_as(stored: Sequence[Notice], notices: Sequence[Notice], folder: Path
     return tuple(placed)
 
 
-def _with_loads_of_file(assembly: Assembly, of_file: Model) -> Assembly:
-    """The assembly with what is found of its loads by solving, as the file has it: no deck says it.
-
-    That is the reaction from which a support gives way, the angle of a tilting table, and at which position of a
-    travelling load the structure is pushed.
-    """
-    known = {case.name: case for case in of_file.load_cases}
-    cases = assembly.model.load_cases
-    return assembly.with_load_cases(
-        tuple(_found(case, known[case.name]) if case.name in known else case for case in cases)
-    )
-
-
-def _found(case: LoadCase, of_file: LoadCase) -> LoadCase:
-    if case.settlement is not None and of_file.settlement is not None:
-        return with_reference(case, of_file.settlement.reference)
-    if case.travel is not None and of_file.pushover is None:
-        return replace(case, pushover=None)
-    tilt, known = case.tilt, of_file.tilt
-    if tilt is None or known is None:
-        return case
-    tilt = replace(tilt, angle=known.angle, tangent=known.tangent, upright=known.upright)
-    if known.tangent or of_file.live_load.shape != tilt.across.shape or leads_across(tilt, of_file.live_load):
-        return replace(case, tilt=tilt)
-    return replace(case, tilt=tilt, live_load=chord(tilt, angle_of_load(tilt, of_file.live_load)))
-
-
-def _differences(results: Results, built: Content) -> list[str]:
-    found = content_of(replace(results, cases=()))
+def _differences(found: Content, built: Content) -> list[str]:
     return [
         f"{path} is not what the deck in the file gives"
         for path in sorted(found.keys() | built.keys())

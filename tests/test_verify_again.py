@@ -103,7 +103,7 @@ def words_of(results: Results) -> str:
 def test_what_has_no_path_is_said_to_have_none(tmp_path: Path) -> None:
     results = run_of(tmp_path, BLOCK)
     assert history_words(results) == ()
-    deck, _ = rebuilt(results)
+    deck, _ = rebuilt(results, {})
     assert deck is not None
     assert paths_again(deck, results.assembly, results.cases[0]) == ()
     assert history_words(replace(results, paths_again=())) == ("no path of elastic joints to follow anew: push",)
@@ -119,7 +119,7 @@ def test_reference_follows_joints_of_two_other_stiffnesses(reference: Results, s
 
 def test_a_path_that_an_accuracy_asks_for_is_missed(reference: Results, slides: Results) -> None:
     def told(results: Results, *rows: PathByStiffness) -> str:
-        deck, _ = rebuilt(results)
+        deck, _ = rebuilt(results, {})
         assert deck is not None
         return " ".join(held_against_deck(deck, results.assembly, beside(results, *rows), done=True).differences)
 
@@ -136,7 +136,7 @@ def beside(results: Results, *rows: PathByStiffness) -> CaseResult:
 
 
 def test_a_load_factor_of_other_joints_is_found_again_or_differs(reference: Results) -> None:
-    deck, _ = rebuilt(reference)
+    deck, _ = rebuilt(reference, {})
     assert deck is not None
     case = beside(reference, PathByStiffness(0.2, 0.48), PathByStiffness(1.0, STATICS))
     found, paths = Found(), paths_again(deck, reference.assembly, case)

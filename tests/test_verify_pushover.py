@@ -51,7 +51,7 @@ def slides(tmp_path_factory: pytest.TempPathFactory) -> Results:
 def forged(results: Results, change: Change, **others: object) -> Results:
     """A file with other rows of its pushover, and all that follows from them as a run would write it."""
     (case,) = results.cases
-    deck, _ = rebuilt(results)
+    deck, _ = rebuilt(results, {})
     pushover = case.solution.further.pushover
     assert pushover.rows is not None
     pushover = replace(pushover, rows=change(pushover.rows), **others)  # type: ignore[arg-type]

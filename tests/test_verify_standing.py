@@ -15,8 +15,8 @@ from mbla.results.exit_status import exit_code
 from mbla.results.hdf5.content import unverified_kinds
 from mbla.results.listing.listing import verification_lines
 from mbla.results.outcome import unproved_words
+from mbla.results.quantities.quantity import UNVERIFIED
 from mbla.results.record.json_record import verification_json
-from mbla.results.record.quantity import UNVERIFIED
 from mbla.results.results import Results
 from mbla.run import run
 from mbla.solution.solution import Standing, StandingResult, Status

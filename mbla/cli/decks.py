@@ -115,7 +115,7 @@ def check(options: argparse.Namespace) -> int:
 
         results, needs = check_deck(content, chosen, options.vtu, time.perf_counter() - took)
         if options.json:
-            from mbla.results.record.json_record import check_json
+            from mbla.results.record.check_record import check_json
             from mbla.results.record.json_values import json_line
 
             print(json_line(check_json(results, needs)), flush=True)

@@ -15,8 +15,8 @@ from typing import Any
 
 from mbla.deck.suggestions import did_you_mean, listed
 from mbla.deck.units import Units
+from mbla.results.quantities.quantity import unit_text
 from mbla.results.record.keys import RUN_RECORD, Key
-from mbla.results.record.quantity import unit_text
 from mbla.sweeps.plan import Plain
 from mbla.sweeps.tables.sweep_table import SweepColumn
 

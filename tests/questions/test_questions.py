@@ -22,7 +22,7 @@ from mbla.questions.question import ZERO, Question
 from mbla.questions.reaction import Reaction, Settlement
 from mbla.questions.tilt import Tilt
 from mbla.questions.travel import Travel, TravelPosition
-from mbla.results.record.columns import CASE_COLUMNS
+from mbla.results.quantities.registry import CASE_COLUMNS
 
 DECKS = Path(__file__).parents[2] / "decks"
 UNITS = Units()
@@ -146,7 +146,7 @@ def test_words(example: Example) -> None:
 
 @every_question
 def test_its_figure_stands_in_the_record(example: Example) -> None:
-    columns = {column.quantity.name for column in CASE_COLUMNS}
+    columns = {column.name for column in CASE_COLUMNS}
     assert example.question.column in columns
     assert {path.partition(".")[0] for path in example.question.paths} <= columns | {"reaction"}
     assert example.question.column.startswith(example.question.group)

@@ -11,8 +11,9 @@ from pathlib import Path
 
 from mbla.deck.units import Units
 from mbla.results.hdf5.layout import ATTRIBUTES
+from mbla.results.quantities.quantity import NOT_VERIFIED, unit_text
+from mbla.results.quantities.registry import STORED
 from mbla.results.record.keys import RECORD, Key
-from mbla.results.record.quantity import NOT_VERIFIED, STORED, unit_text
 from mbla.results.tables.tables import tables_page
 from mbla.results.vtu.arrays import arrays_table
 from mbla.sweeps.interaction.study import INTERACT_RECORD

@@ -57,15 +57,40 @@ G = 9.81
 SHEET = np.array([[9.0, 0, 0], [9.0, 1, 0], [9.0, 1, 3], [9.0, 0, 3]])[::-1]
 """a surface at x = 9, seen from smaller x"""
 ASSESSED = AssessmentSection.model_validate({"spectra": {"SLV": {"table": [[0.0, 0.2], [2.0, 0.1]]}}})
-DOUBT = Message("assessment-in-doubt", "the curve has rough steps")
 VERDICT = Assessment(
     "NTC 2018 with Circolare 7/2019",
     (
         Figure("", "a_0*", 0.7, "m/s2", "[C8.7.1.8]", "alpha_0 g/(e* FC): it begins"),
         Figure("SLV", "zeta", 0.9, "", "C8.7.1.2.1.7", "q a_g,0/a_g, by alpha_0 alone"),
     ),
-    (DOUBT,),
+    (Message("assessment-in-doubt", "the mechanism moves in space"),),
 )
+
+
+DECK = """\
+# Tür und Turm – µ
+mbla: 1
+title: Tower and brick
+materials: {stone: {density: "=5/9.81"}, dense: {density: "=20/9.81"}}
+joints:
+  dry: {friction: 0.65}
+  strong: {friction: 0.5, cohesion: 1, tensile_strength: 2, compressive_strength: 3, dilatancy: "=atan(0.1)"}
+contacts: {joint: dry}
+blocks:
+  - box: {group: base, material: stone, min: [-1, -1, 0], max: [2, 2, 1]}
+  - box: {group: tower, material: stone, min: [0, 0, 1], max: [1, 1, 3]}
+  - box: {group: brick, material: dense, min: [4, 0, 0], max: [5, 1, 0.5]}
+supports: [{blocks: base}, {ground: {z: 0}}]
+load_cases:
+  push_x: {live: [{acceleration: [1, 0, 0]}]}
+  fall: {live: [{acceleration: [1, 0, 0]}]}
+  not_run: {live: [{acceleration: [1, 0, 0]}]}
+"""
+"""of the tower: it gives its blocks, interfaces and contact points"""
+ROD = "ties: [{name: rod, through: [[0, 0.5, 1.5], [-1, 0.5, 1.5]], on: [tower, ground], capacity: 4}]\n"
+"""section of the deck of the full results, for their tie"""
+ASKED = "push_x: {assessment: {spectra: {SLV: {table: [[0.0, 0.2], [2.0, 0.1]]}}}, "
+"""beginning of their load case in it, for their assessment"""
 
 
 def cuboids(lower: Any, upper: Any, groups: Any, densities: Any = 1.0) -> Blocks:
@@ -229,9 +254,7 @@ def tower_results(flow_rule: str = "non_associative") -> Results:
     nothing = Checks(nan, nan, nan, nan, nan, nan, nan, nan, nan, True, ())
     notices = (*model.notices, *tower_contacts().report.notices)
     return Results(
-        deck=DeckRecord(
-            "tower.yaml", (("tower.yaml", "mbla: 1\ntitle: Tür und Turm – µ\n"), ("b.yaml", "")), (), "ab" * 32
-        ),
+        deck=DeckRecord("tower.yaml", (("tower.yaml", DECK), ("b.yaml", "")), (), "ab" * 32),
         assembly=Assembly(model, tower_contacts()),
         cases=(
             CaseResult(model.load_cases[0], solution, checks, Status.SOLVED),
@@ -271,7 +294,9 @@ def full_results() -> Results:
     contacts = replace(results.contacts, solid_of_block=np.arange(len(results.model.blocks)))
     model = full_model(results.model)
     full = replace(case, load_case=model.load_cases[0], solution=full_solution(case.solution), checks=checks)
-    deck = replace(results.deck, files=(("stones.obj", b"v 0 0 0\n"), ("meshes/none.bin", b""), ("x.csv", b"\xff\x00")))
+    files = (("stones.obj", b"v 0 0 0\n"), ("meshes/none.bin", b""), ("x.csv", b"\xff\x00"))
+    sources = (("tower.yaml", DECK.replace("push_x: {", ASKED) + ROD), *results.deck.sources[1:])
+    deck = replace(results.deck, sources=sources, files=files)
     assembly = Assembly(model, contacts)
     cases = (replace(full, assessment=VERDICT), results.cases[1])
     return replace(results, deck=deck, assembly=assembly, cases=cases, complete=False, not_done=("slide",))
@@ -304,7 +329,7 @@ def full_solution(solution: Solution) -> Solution:
         remarks=(
             Message("elastic-path-rises", "the load still rises"),
             Message("tilt-by-steps", "one more"),
-            DOUBT,
+            *VERDICT.remarks,
         ),
         least=replace(mechanics, load_factor=0.45),
         torsion=replace(mechanics, load_factor=0.42),
@@ -477,6 +502,18 @@ def full_model(model: Model) -> Model:
         fill=Fill(0.5 * model.blocks.added_masses, model.blocks.added_mass_points, ("soil: 1 m deep",)),
         ties=TIE,
     )
+
+
+def same_findings(first: Results, second: Results) -> bool:
+    """Whether two results are the same in all that is not the model: a result file has that by its deck."""
+    return same(with_model_of(first, second), second)
+
+
+def with_model_of(first: Results, second: Results) -> Results:
+    """What was found of the first, with the model and the loads of the second."""
+    cases = zip(first.cases, second.cases, strict=True)
+    as_second = tuple(replace(own, load_case=other.load_case) for own, other in cases)
+    return replace(first, assembly=second.assembly, cases=as_second)
 
 
 def same(first: Any, second: Any) -> bool:

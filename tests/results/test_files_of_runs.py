@@ -17,10 +17,11 @@ from mbla.cli.check import check
 from mbla.deck import read_deck
 from mbla.results.hdf5.layout import text_of
 from mbla.results.hdf5.result_file import read_results_hdf5
-from mbla.results.record.json_record import check_json, results_json
+from mbla.results.quantities.registry import STORED
+from mbla.results.record.check_record import check_json
+from mbla.results.record.json_record import results_json
 from mbla.results.record.json_values import json_line
 from mbla.results.record.keys import RECORD
-from mbla.results.record.quantity import STORED
 from mbla.run import RunOptions, run
 from tests.decks.folder import BENCHMARKS
 from tests.results.synthetic import full_results

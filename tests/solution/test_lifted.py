@@ -10,7 +10,6 @@ import pytest
 
 from mbla.assembly import build_assembly
 from mbla.deck import read_deck
-from mbla.errors import FileError
 from mbla.model import build_model
 from mbla.results.collapse.collapse import collapse_of
 from mbla.results.hdf5.result_file import read_results_hdf5, write_results_hdf5
@@ -149,15 +148,14 @@ def test_glued_to_the_ground_is_fixed() -> None:
     assert case.solution.mechanics.load_factor == pytest.approx(0.6, rel=1e-6)
 
 
-def test_restoring_a_file_refuses_numbers_with_gaps(tmp_path: Path) -> None:
+def test_other_bodies_than_glue_makes_are_told(tmp_path: Path) -> None:
     path = tmp_path / "deck.yaml"
     path.write_text(BRACKET, encoding="utf-8")
     run(path, RunOptions())
     file = tmp_path / "deck.out" / "deck.h5"
     with changing(file) as opened:
         opened["contacts/solid_of_block"][:] = [0, 2]
-    with pytest.raises(FileError, match="rigid bodies"):
-        read_results_hdf5(file)
+    assert verify_file(file)[1] == ("contacts/solid_of_block is not what the deck in the file gives",)
 
 
 def test_the_bracket_is_one_rigid_body(tmp_path: Path) -> None:

@@ -19,8 +19,8 @@ from mbla.model.solids.blocks import Blocks
 from mbla.results.collapse.motion import displacements_at
 from mbla.results.diff.matching import Matching
 from mbla.results.outcome import law_residual, least_answer, least_factor, result_of
-from mbla.results.record.columns import CASE_COLUMNS
-from mbla.results.record.quantity import UnitKind, unit_text
+from mbla.results.quantities.quantity import UnitKind, unit_text
+from mbla.results.quantities.registry import CASE_COLUMNS
 from mbla.results.record.scene import Scene
 from mbla.results.results import CaseResult
 from mbla.solution.solution import Status
@@ -39,12 +39,12 @@ FURTHER = (
 )
 """figures that are compared besides"""
 COLUMNS = {
-    name: (column, place)
-    for column in CASE_COLUMNS
-    for place, name, _ in column.quantity.components()
+    name: (quantity, place)
+    for quantity in CASE_COLUMNS
+    for place, name, _ in quantity.components()
     if name in (*ANSWERS, *FURTHER)
 }
-"""column of each, and its place in it"""
+"""quantity of each, and its place in it"""
 
 
 @dataclass(frozen=True)
@@ -151,7 +151,7 @@ def _figures(first: Scene, second: Scene, tolerance: float) -> tuple[Figure, tup
     factors: dict[UnitKind, float] = {"force": force, "moment": force * METRES[its.length] / METRES[units.length]}
 
     def compared(name: str) -> Figure:
-        unit = COLUMNS[name][0].quantity.unit
+        unit = COLUMNS[name][0].unit
         values = _value(first, name), _value(second, name) * factors.get(unit, 1.0)
         own = name == load_case.question.column
         least = (least_answer if own else least_factor)(first.model, load_case)
@@ -165,9 +165,9 @@ def _figures(first: Scene, second: Scene, tolerance: float) -> tuple[Figure, tup
 
 def _value(scene: Scene, name: str) -> float:
     """A figure of a load case; nan where there is none."""
-    column, place = COLUMNS[name]
-    values = column.of(scene)
-    return math.nan if values is None else float(values[0][place])
+    quantity, place = COLUMNS[name]
+    value = quantity.of(scene)
+    return math.nan if value is None else float(np.asarray(value)[place])
 
 
 def _motions(first: Scene, second: Scene, matching: Matching) -> MotionComparison:

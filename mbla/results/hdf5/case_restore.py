@@ -13,8 +13,8 @@ from mbla.model.model import LoadCase
 from mbla.program.reductions import ProgramSize, ReductionStep, StepState
 from mbla.program.reductions.steps import REDUCTIONS
 from mbla.results.assessment import NAMES, REMARKS, Assessment, Figure
-from mbla.results.hdf5.content import HISTORY, MOTIONS
-from mbla.results.record.quantity import ANSWERS, stored
+from mbla.results.quantities.answers import ANSWERS, MOTIONS
+from mbla.results.quantities.registry import held as fields_held
 from mbla.results.results import CaseResult
 from mbla.solution.further.further import Further
 from mbla.solution.further.geometric_safety.geometric_safety import GeometricSafety
@@ -25,8 +25,12 @@ from mbla.solution.pushover.record import PushedRows, RowPoints
 from mbla.solution.solution import (
     Checks,
     ContactMode,
+    IterationRecord,
     Mechanics,
     ModelSize,
+    PathByStiffness,
+    PathPoint,
+    ProgramRecord,
     Solution,
     Standing,
     StandingResult,
@@ -39,7 +43,7 @@ Record = TypeVar("Record")
 def case_from(load_case: LoadCase, get: dict[str, Any]) -> CaseResult:
     """The results of a load case from the content below it; raises ValueError where it contradicts itself."""
     answers: dict[str, Any] = {
-        part: _mechanics(get, f"{group}/".lstrip("/"), part) for part, (group, _) in ANSWERS.items()
+        part: _mechanics(get, f"{group}/".lstrip("/"), part) for part, (group, *_) in ANSWERS.items()
     }
     if answers["associative"] is None and get["flow_rule"] == "associative":
         answers["associative"] = answers["mechanics"]
@@ -48,24 +52,28 @@ def case_from(load_case: LoadCase, get: dict[str, Any]) -> CaseResult:
             raise ValueError(f"{name} of a load case")
     if not {get["solver"], *get["programs/solver"]} <= {"", *_choices("solver")}:
         raise ValueError("name of a solver")
-    own = held(Solution, "cases/*", get) | {
+    own = held(Solution, "", get) | {
         "status": Status(get["claimed_status"]),
         "stress_blocks": bool(get["stress_blocks"]),
         "remarks": _messages(get, "remarks"),
         "level_lock": get.get("level/lock"),
         "certificate": get.get("certificate"),
+        "lock": get.get("lock"),
         "certificate_motions": _motions(get, "certificate_"),
         "standing": _standing(get),
         "size": _size(get),
         "reductions": _reductions(get),
-        **{name: _records(kind, get, name) for name, kind in HISTORY.items()},
+        "programs": _records(ProgramRecord, get, "programs"),
+        "iterations": _records(IterationRecord, get, "iterations"),
+        "path": _records(PathPoint, get, "path"),
+        "path_by_stiffness": _records(PathByStiffness, get, "path_by_stiffness"),
         "further": Further(
             pushover=_pushover(get),
             sensitivity=_records(Slope, get, "sensitivity") if "sensitivity/parameter" in get else (),
             geometric_safety=_geometric_safety(get),
         ),
     }
-    checks = held(Checks, "cases/*", get) | {"failures": _messages(get, "failures")}
+    checks = held(Checks, "", get) | {"failures": _messages(get, "failures")}
     solution = Solution(**own, **answers)
     assessment = _assessment(load_case, get, solution)
     return CaseResult(load_case, solution, Checks(**checks), Status(get["status"]), assessment)
@@ -87,42 +95,29 @@ def _pushover(get: dict[str, Any]) -> Pushover:
     """A pushover with what its rows follow from."""
     if "curve/step" not in get:
         return NOT_PUSHED
-    points = RowPoints(
-        bodies=get["pushed/bodies"],
-        host=get["pushed/host"],
-        arms=get["pushed/arms"],
-        frames=get["pushed/frames"],
-        laws=get["pushed/law"],
-        areas=get["pushed/areas"],
-        history=get["pushed/at_zero"],
-        forces=get["pushed/contact_forces"],
-    )
+    points = RowPoints(**held(RowPoints, "pushed", get))
     rows = PushedRows(
+        **held(PushedRows, "pushed", get),
         load_factors=get["curve/load_factor"],
-        shifts=get["pushed/shift"],
-        turns=get["pushed/rotation"],
-        fallen=get["pushed/fallen"],
         energies=np.column_stack([get[f"curve/{name}"] for name in ENERGIES]),
         errors=get["curve/error"],
         jumps=get["curve/jumps"],
         unsolved=get["curve/unsolved"],
-        point_start=get["pushed/point_start"],
         points=points,
-        stiffness=get["pushed/stiffness"],
     )
     start = rows.point_start
     if not len(rows) or len(start) != len(rows) + 1 or start[0] != 0 or start[-1] != len(points.forces):
         raise ValueError("rows of a pushover")
     if (np.diff(start) < 0).any() or start[1] != 0:
         raise ValueError("points of a pushover")
-    own = held(Pushover, "cases/*", get) | {"curve_end": CurveEnd(get["curve_end"])}
+    own = held(Pushover, "", get) | {"curve_end": CurveEnd(get["curve_end"])}
     return Pushover(**own, curve=_records(CurveRow, get, "curve"), rows=rows)
 
 
 def _geometric_safety(get: dict[str, Any]) -> GeometricSafety | None:
     if "geometric_safety/sizes" not in get:
         return None
-    values = {name: get[f"geometric_safety/{name}"] for name in stored(GeometricSafety, "cases/*/geometric_safety")}
+    values = held(GeometricSafety, "geometric_safety", get)
     if not 1 <= len(values["sizes"]) <= 2 or not (values["sizes"] > 0.0).all():
         raise ValueError("sizes of joints")
     return GeometricSafety(**values | {"verified": bool(values["verified"])})
@@ -133,9 +128,11 @@ def _choices(key: str) -> tuple[str, ...]:
     return get_args(AnalysisSection.model_fields[key].annotation)
 
 
-def held(kind: type, place: str, get: dict[str, Any]) -> dict[str, Any]:
-    """Fields of a dataclass by name, those that are there."""
-    return {name: get[name] for name in stored(kind, place) if name in get}
+def held(kind: type, group: str, get: dict[str, Any]) -> dict[str, Any]:
+    """Fields of a dataclass that stand in a group of a load case, those that are there."""
+    prefix = f"{group}/" if group else ""
+    names = fields_held(kind, f"cases/*/{group}".removesuffix("/"))
+    return {field: get[prefix + name] for field, name in names.items() if prefix + name in get}
 
 
 def _messages(get: dict[str, Any], group: str) -> tuple[Message, ...]:
@@ -149,8 +146,7 @@ def _mechanics(get: dict[str, Any], group: str, part: str) -> Mechanics | None:
         return None
     if not np.isin(get[f"{group}modes"], [int(mode) for mode in ContactMode]).all():
         raise ValueError("contact modes")
-    values: dict[str, Any] = {name: get.get(group + name) for name in stored(Mechanics, "cases/*")}
-    return Mechanics(**values, interface_motions=_motions(get, group))
+    return Mechanics(**held(Mechanics, group.removesuffix("/"), get), interface_motions=_motions(get, group))
 
 
 def _motions(get: dict[str, Any], group: str) -> FloatArray | None:
@@ -166,19 +162,14 @@ def _standing(get: dict[str, Any]) -> StandingResult | None:
     falls = get["standing/falls"].tolist()
     if len(falls) > 1:
         raise ValueError("more than one block that falls first")
-    return StandingResult(
-        Standing(get["standing/verdict"]),
-        falls[0] if falls else None,
-        get["standing/reason"],
-        get.get("standing/contact_forces"),
-        get.get("standing/settlement"),
-    )
+    own = held(StandingResult, "standing", get) | {"verdict": Standing(get["standing/verdict"])}
+    return StandingResult(**own, block=falls[0] if falls else None)
 
 
 def _size(get: dict[str, Any]) -> ModelSize | None:
     if "size/dimension" not in get:
         return None
-    size = ModelSize(**{name: get[f"size/{name}"] for name in stored(ModelSize, "cases/*/size")})
+    size = ModelSize(**held(ModelSize, "size", get))
     if size.dimension not in (2, 3):
         raise ValueError("dimension of the model")
     return size
@@ -201,10 +192,9 @@ def _reductions(get: dict[str, Any]) -> tuple[ReductionStep, ...]:
 
 def _records(kind: type[Record], get: dict[str, Any], group: str) -> tuple[Record, ...]:
     """A list of records from its columns."""
-    names = stored(kind, f"cases/*/{group}")
-    found = [get[f"{group}/{name}"] for name in names]
-    columns = [column if isinstance(column, list) else column.tolist() for column in found]
+    found = held(kind, group, get)
+    columns = {name: column if isinstance(column, list) else column.tolist() for name, column in found.items()}
     for name, choice in (("status", Status), ("side", Side)):
-        if name in names:
-            columns[names.index(name)] = [choice(value) for value in columns[names.index(name)]]
-    return tuple(kind(**dict(zip(names, row, strict=True))) for row in zip(*columns, strict=True))
+        if name in columns:
+            columns[name] = [choice(value) for value in columns[name]]
+    return tuple(kind(**dict(zip(columns, row, strict=True))) for row in zip(*columns.values(), strict=True))

@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
-from mbla.results.record.quantity import STORED, Quantity
+from mbla.results.quantities.quantity import Quantity
+from mbla.results.quantities.registry import OF_CASES, OF_MODEL, OF_RUN
 
 if TYPE_CHECKING:
     import h5py
@@ -60,9 +61,12 @@ SHARED_DIMENSIONS = (
 
 def fields_of(cases: Iterable[str]) -> tuple[tuple[str, Quantity], ...]:
     """Path and quantity of every dataset that a file with these load cases may hold, in the order of writing."""
-    common = tuple((each.path, each) for each in STORED if "*" not in each.path)
-    own = (each for each in STORED if "*" in each.path)
-    return common + tuple((each.path.replace("*", name), each) for name, each in product(cases, tuple(own)))
+    return (*((each.path, each) for each in (*OF_RUN, *OF_MODEL)), *placed(OF_CASES, cases))
+
+
+def placed(quantities: Iterable[Quantity], cases: Iterable[str]) -> list[tuple[str, Quantity]]:
+    """Path and quantity of each dataset of quantities of load cases."""
+    return [(each.path.replace("*", name), each) for name, each in product(cases, tuple(quantities))]
 
 
 MOST = 1e152

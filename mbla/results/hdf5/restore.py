@@ -1,83 +1,102 @@
-"""Results from the content of a result file: the way back from ``content``.
+"""Results from the content of a result file: its deck builds model and contacts again, its arrays are what was found.
 
 The content has been checked against the layout already; what is checked here is what no table can say.
-That is also what arrays of a model must have in common whatever its deck: volumes are those of the faces, frames are
-square.
 """
 
 from __future__ import annotations
 
+import tempfile
 from dataclasses import replace
-from typing import Any, cast
+from pathlib import Path
+from typing import Any
 
-import numpy as np
-
-from mbla.arrays import FloatArray
-from mbla.assembly.assembly import Assembly
-from mbla.contacts.contacts import ContactReport, Contacts
-from mbla.deck.sections.assessment import AssessmentSection
-from mbla.deck.sections.selectors import POSITIONS
-from mbla.deck.units import KILOGRAMS, METRES, NEWTONS, Units
-from mbla.errors import Notice
-from mbla.model.applied_load import AppliedLoad, without_forces
-from mbla.model.fill import Fill
-from mbla.model.guides import NO_GUIDES, Guides
-from mbla.model.model import Ground, Joint, LoadCase, Model, Pushing
-from mbla.model.solids.blocks import BlockLabels, Blocks
-from mbla.model.solids.measures import volumes_and_centroids
-from mbla.model.solids.polyhedra import Polyhedra
-from mbla.model.solids.ragged import row_sums
-from mbla.model.ties.ties import NO_TIES, OUTSIDE, Ties
-from mbla.questions.force import Objective
-from mbla.questions.reaction import Settlement
-from mbla.questions.tilt import Tilt
-from mbla.questions.travel import TravelPosition
-from mbla.results.hdf5.case_restore import case_from, held
-from mbla.results.hdf5.content import RECORD_NAMES
+from mbla.assembly import Assembly, build_assembly
+from mbla.errors import DeckError, FileError, Notice
+from mbla.model import build_model
+from mbla.model.model import LoadCase
+from mbla.model.settlement import with_reference
+from mbla.questions.tilt import chord
+from mbla.results.hdf5.case_restore import case_from
 from mbla.results.hdf5.layout import Content
-from mbla.results.record.quantity import stored
+from mbla.results.provenance import deck_of
+from mbla.results.quantities.registry import STORED_BY_PATH
 from mbla.results.results import CaseResult, DeckRecord, Results
+from mbla.solution.verification.tilting_table import angle_of_load, leads_across
 
-LEAST, MOST = 1e-120, 1e120
-"""of loads, which are squared; those of a deck lie within 1e-112 and 1e100. Also the least density"""
+LOADS_FOUND = tuple(
+    STORED_BY_PATH[f"cases/*/{name}"]
+    for name in ("live_load", "pushover/step", "settlement/reference", "tilt/angle", "tilt/tangent", "tilt/upright")
+)
+"""what solving finds of the loads of a case, so that no deck says it: the reaction from which a support gives way, the
+angle of a tilting table, and at which position of a travelling load the structure is pushed"""
 
 
-def results_from(content: Content, attributes: dict[str, str | int]) -> Results:
-    """Results from content and root attributes; raises ValueError where they contradict themselves."""
-    get = cast("dict[str, Any]", content)
-    names = get["model/load_cases"]
-    load_cases = {name: _load_case(name, _part(get, f"cases/{name}/")) for name in names}
-    if len(load_cases) != len(names):
-        raise ValueError("two load cases of one name")
+def deck_record(get: Content, attributes: dict[str, str | int]) -> DeckRecord:
+    """The deck of a file, from the content below ``deck``."""
+    found: dict[str, Any] = get
+    start, content = found["deck/file_start"], found["deck/file_bytes"].tobytes()
+    files = ((name, content[start[row] : start[row + 1]]) for row, name in enumerate(found["deck/file_names"]))
+    return DeckRecord(
+        name=found["deck/name"],
+        sources=tuple(zip(found["deck/source_names"], found["deck/source_texts"], strict=True)),
+        overrides=tuple(found["deck/overrides"]),
+        sha256=str(attributes["deck_sha256"]),
+        files=tuple(files),
+    )
+
+
+def built_again(record: DeckRecord, path: Path) -> Assembly:
+    """Model and contacts of the deck in a file; FileError where that is not valid."""
+    with tempfile.TemporaryDirectory() as name:
+        try:
+            deck = deck_of(record, Path(name), expected=False)
+            return build_assembly(deck, build_model(deck))
+        except (DeckError, FileError) as error:
+            why = str(error.faults[0] if isinstance(error, DeckError) else error).replace(f"{name}/", "")
+            words = f"{path}: the deck in the file is not valid: {why}"
+            raise FileError("damaged-result-file", words) from error
+
+
+def with_loads_found(assembly: Assembly, get: Content) -> Assembly:
+    """The assembly with what was found of its loads by solving."""
+    return assembly.with_load_cases(
+        tuple(_found(case, _part(get, f"cases/{case.name}/")) for case in assembly.model.load_cases)
+    )
+
+
+def _found(case: LoadCase, get: dict[str, Any]) -> LoadCase:
+    if case.settlement is not None and "settlement/reference" in get:
+        return with_reference(case, get["settlement/reference"])
+    if case.travel is not None and "pushover/step" not in get:
+        return replace(case, pushover=None)
+    tilt, live_load = case.tilt, get.get("live_load")
+    if tilt is None or live_load is None or "tilt/tangent" not in get:
+        return case
+    tilt = replace(tilt, angle=get["tilt/angle"], tangent=bool(get["tilt/tangent"]), upright=get["tilt/upright"])
+    if tilt.tangent or leads_across(tilt, live_load):
+        return replace(case, tilt=tilt)
+    return replace(case, tilt=tilt, live_load=chord(tilt, angle_of_load(tilt, live_load)))
+
+
+def results_from(content: Content, attributes: dict[str, str | int], record: DeckRecord, assembly: Assembly) -> Results:
+    """Results from content and root attributes; raises ValueError where they contradict themselves.
+
+    assembly : of the deck of the file, with the loads as they were found
+    """
+    get: dict[str, Any] = content
     complete = bool(attributes["complete"])
     if complete is ("provenance/not_done" in get):
         raise ValueError("whether the run came to its end")
-    solved = [name for name in names if f"cases/{name}/status" in get]
-    model, contacts = _model(_part(get, "model/"), tuple(load_cases.values())), _contacts(_part(get, "contacts/"))
-    if not set(contacts.joint_names) <= set(model.joints):
-        raise ValueError("joint law of an interface")
-    contradictions = incoherences(model, contacts)
-    if contradictions:
-        raise ValueError("; ".join(contradictions))
-    if solved and model.fixed.all():
-        raise ValueError("results of a model in which no block can move")
-    for name in solved:
-        moving = ~model.of_case(load_cases[name]).fixed
-        none = np.abs(load_cases[name].live_load[moving]).max(initial=0.0) < LEAST
-        if none and load_cases[name].question.collapses:
-            raise ValueError(f"{name}: no live load on blocks that can move")
-    cases = tuple(case_from(load_cases[name], _part(get, f"cases/{name}/")) for name in solved)
-    assembly = Assembly(model, contacts)
+    load_cases = assembly.model.load_cases
+    cases = tuple(
+        case_from(load_case, _part(get, f"cases/{load_case.name}/"))
+        for load_case in load_cases
+        if f"cases/{load_case.name}/status" in get
+    )
     for case in cases:
         check_carriers(assembly, case)
     return Results(
-        deck=DeckRecord(
-            name=get["deck/name"],
-            sources=tuple(zip(get["deck/source_names"], get["deck/source_texts"], strict=True)),
-            overrides=tuple(get["deck/overrides"]),
-            sha256=str(attributes["deck_sha256"]),
-            files=_side_files(_part(get, "deck/")),
-        ),
+        deck=record,
         assembly=assembly,
         cases=cases,
         notices=_notices(_part(get, "notices/")),
@@ -103,12 +122,7 @@ def check_carriers(assembly: Assembly, case: CaseResult) -> None:
             raise ValueError(f"{case.load_case.name}: forces of another number of contact points and ties")
 
 
-def _side_files(get: dict[str, Any]) -> tuple[tuple[str, bytes], ...]:
-    names, start, content = get["file_names"], get["file_start"], get["file_bytes"].tobytes()
-    return tuple((name, content[start[row] : start[row + 1]]) for row, name in enumerate(names))
-
-
-def _part(content: dict[str, Any], prefix: str) -> dict[str, Any]:
+def _part(content: Content, prefix: str) -> dict[str, Any]:
     return {path[len(prefix) :]: value for path, value in content.items() if path.startswith(prefix)}
 
 
@@ -116,190 +130,3 @@ def _notices(get: dict[str, Any]) -> tuple[Notice, ...]:
     if not set(get["severity"]) <= {"notice", "warning"}:
         raise ValueError("severity of a notice")
     return tuple(Notice(*row) for row in zip(get["severity"], get["identifier"], get["message"], strict=True))
-
-
-def _model(get: dict[str, Any], load_cases: tuple[LoadCase, ...]) -> Model:
-    length, force, mass = get["units"]
-    if length not in METRES or force not in NEWTONS or mass not in KILOGRAMS:
-        raise ValueError("units of the model")
-    if get["densities"].min(initial=1.0) < LEAST:
-        raise ValueError("density of a block")
-    names = get["group_names"]
-    groups = tuple(names[group] for group in get["groups"].tolist())
-    return Model(
-        title=get["title"],
-        units=Units(length, force, mass),
-        blocks=Blocks(**{**held(Blocks, "model", get), "groups": groups, "labels": _labels(get)}),
-        fixed=get["fixed"],
-        grounds=_grounds(get),
-        joints=_joints(get),
-        load_cases=load_cases,
-        notices=_notices(_part(get, "notices/")),
-        guides=_guides(get),
-        fill=_fill(get),
-        ties=_ties(get),
-    )
-
-
-def _fill(get: dict[str, Any]) -> Fill | None:
-    if "fill_masses" not in get:
-        return None
-    if np.any(get["fill_masses"] > get["added_masses"] * (1.0 + ROUNDING)):
-        raise ValueError("mass of the fill on a block")
-    return Fill(get["fill_masses"], get["fill_points"], tuple(get["fill_words"]))
-
-
-def _ties(get: dict[str, Any]) -> Ties:
-    if "tie_names" not in get:
-        return NO_TIES
-    arrays = {name: get[f"tie_{name}"] for name in Ties.__dataclass_fields__}
-    ties = Ties(**{**arrays, "names": tuple(arrays["names"]), "forms": tuple(arrays["forms"])})
-    if np.any(np.diff(ties.start) < 2) or np.any((ties.bodies < OUTSIDE) | (ties.bodies >= len(get["fixed"]))):
-        raise ValueError("points of a tie")
-    if np.any(ties.least > ties.greatest) or np.any((ties.prestress < 0) | (ties.breaks_at < 0)):
-        raise ValueError("forces of a tie")
-    return ties
-
-
-def _guides(get: dict[str, Any]) -> Guides:
-    if "guided_blocks" not in get:
-        return NO_GUIDES
-    blocks, bodies = get["guided_blocks"], get["guided_bodies"]
-    numbers = np.unique(bodies)
-    if len(np.unique(blocks)) < len(blocks) or not np.array_equal(numbers, np.arange(len(numbers))):
-        raise ValueError("guided blocks and bodies")
-    return Guides(blocks, bodies, get["guide_motions"], tuple(get["guide_words"]))
-
-
-def _labels(get: dict[str, Any]) -> BlockLabels:
-    if tuple(get["position_names"]) != POSITIONS:
-        raise ValueError("names of the positions of blocks")
-    names = get["member_names"]
-    return BlockLabels(tuple(names[member] for member in get["members"].tolist()), get["positions"])
-
-
-def _joints(get: dict[str, Any]) -> dict[str, Joint]:
-    columns = [get[name].tolist() for name in stored(Joint, "model")]
-    return {row[0]: Joint(*row) for row in zip(get["joint_names"], *columns, strict=True)}
-
-
-def _grounds(get: dict[str, Any]) -> tuple[Ground, ...]:
-    selective = get["ground_selective"].tolist()
-    blocks = np.split(get["ground_blocks"], get["ground_start"][1:-1]) if selective else []
-    if not set(get["ground_joints"]) <= set(get["joint_names"]):
-        raise ValueError("joint law of a ground plane")
-    outlines = _outlines(get, len(selective))
-    return tuple(
-        Ground(point, normal, joint, carried if chosen else None, label, outline)
-        for point, normal, joint, carried, chosen, label, outline in zip(
-            get["ground_points"],
-            get["ground_normals"],
-            get["ground_joints"],
-            blocks,
-            selective,
-            get["ground_labels"],
-            outlines,
-            strict=True,
-        )
-    )
-
-
-def _outlines(get: dict[str, Any], count: int) -> list[FloatArray | None]:
-    """Corners of the grounds that end somewhere, None for the others."""
-    if "ground_outlines" not in get:
-        return [None] * count
-    loops = np.split(get["ground_outlines"], get["ground_outline_start"][1:-1])
-    if any(0 < len(loop) < 3 for loop in loops):
-        raise ValueError("outline of a ground surface")
-    return [loop if len(loop) else None for loop in loops]
-
-
-def _contacts(get: dict[str, Any]) -> Contacts:
-    parts = len(get["report/unsupported_start"]) - 1
-    unsupported = np.split(get["report/unsupported_blocks"], get["report/unsupported_start"][1:-1]) if parts else []
-    report = ContactReport(
-        **held(ContactReport, "contacts/report", _part(get, "report/")),
-        unsupported=tuple(unsupported),
-        notices=_notices(_part(get, "notices/")),
-    )
-    if np.any((get["outline"] < 0) | (get["outline"] > np.diff(get["point_start"]))):
-        raise ValueError("outline of an interface")
-    arrays = held(Contacts, "contacts", get)
-    label = get.get("solid_of_block")
-    if label is not None and not np.array_equal(np.unique(label), np.arange(label.max(initial=-1) + 1)):
-        raise ValueError("numbers of rigid bodies")
-    return Contacts(**{**arrays, "joint_names": tuple(get["joint_names"]), "report": report})
-
-
-def _load_case(name: str, get: dict[str, Any]) -> LoadCase:
-    names = {path: name for name, path in RECORD_NAMES.items()}
-    get = {names.get(path, path): value for path, value in get.items()}
-    travel, tilt = _part(get, "travel/"), _part(get, "tilt/")
-    if max(np.abs(get[load]).max(initial=0.0) for load in ("dead_load", "live_load")) > MOST:
-        raise ValueError(f"{name}: a load beyond {MOST:.0e}")
-    if travel and not ((travel["blocks"] >= -1) & (travel["blocks"] < len(get["live_load"]))).all():
-        raise ValueError(f"{name}: blocks under a travelling load")
-    if travel and not len(travel["blocks"]):
-        raise ValueError(f"{name}: a travelling load without forces")
-    settlement = None
-    if "settlement/blocks" in get:
-        settlement = Settlement(**held(Settlement, "cases/*/settlement", _part(get, "settlement/")))
-        if len(np.unique(settlement.blocks)) < len(settlement.blocks) or not settlement.unit > 0:
-            raise ValueError("settlement of a support")
-    objective = _part(get, "objective/")
-    if objective and not (np.isin(objective["sides"], [-1, 0, 1]).all() and settlement is not None):
-        raise ValueError("objective of a load case")
-    return LoadCase(
-        name,
-        get["dead_load"],
-        get["live_load"],
-        tuple(map(_applied, get["dead_words"])),
-        tuple(map(_applied, get["live_words"])),
-        settlement=settlement,
-        objective=Objective(**objective) if objective else None,
-        travel=TravelPosition(**travel) if travel else None,
-        tilt=Tilt(**tilt) if tilt else None,
-        pushover=Pushing(**pushed) if (pushed := _part(get, "pushover/")) else None,
-        assessment=AssessmentSection.model_validate_json(asked) if (asked := get.get("assessment/asked")) else None,
-    )
-
-
-def _applied(words: str) -> AppliedLoad:
-    """A load without its forces, of which the file has the sums alone."""
-    on_masses = any(kind in words for kind in ("gravity", "acceleration", "tilt"))
-    in_g = words.startswith("acceleration") and ", by height" not in words
-    return without_forces(words, on_masses=on_masses, in_g=in_g)
-
-
-ROUNDING = 1e-6
-"""Difference over the size of a block, or of an area over the largest, that is no contradiction."""
-
-
-@np.errstate(over="ignore", invalid="ignore")  # what is no number is no agreement either
-def incoherences(model: Model, contacts: Contacts) -> tuple[str, ...]:
-    """Where arrays of a model contradict each other, in words."""
-    blocks = model.blocks
-    corners = np.diff(blocks.loop_start)
-    if np.any(corners < 3) or np.any(np.diff(blocks.face_start) < 1) or np.any(blocks.volumes <= 0.0):
-        return ("blocks are no solids",)
-    solids = Polyhedra(blocks.vertices, blocks.vertex_start, blocks.loops, blocks.loop_start, blocks.face_start)
-    volumes, centroids = volumes_and_centroids(solids)
-    found = []
-    if not np.allclose(volumes, blocks.volumes, rtol=ROUNDING, atol=0.0):
-        found.append("volumes of blocks are not those within their faces")
-    extent = float(np.abs(blocks.vertices).max(initial=0.0))
-    away = np.abs(centroids - blocks.centroids).max(axis=1)
-    if not np.all(away <= ROUNDING * blocks.sizes + 1e-9 * extent):
-        found.append("centroids of blocks are not those within their faces")
-    if not _off(np.einsum("pix,pjx->pij", contacts.frames, contacts.frames), np.eye(3)) <= ROUNDING:
-        found.append("frames of contact points are not orthonormal")
-    if not _off(contacts.frames[:, 0], contacts.normals[contacts.interface_of_point]) <= ROUNDING:
-        found.append("frames of contact points do not follow the normals of interfaces")
-    shares = row_sums(contacts.point_areas, contacts.point_start)
-    if not _off(shares, contacts.areas) <= ROUNDING * float(np.abs(contacts.areas).max(initial=0.0)):
-        found.append("areas of interfaces are not those of their contact points")
-    return tuple(found)
-
-
-def _off(one: FloatArray, other: FloatArray) -> float:
-    return float(np.abs(one - other).max(initial=0.0))

@@ -9,8 +9,7 @@ numbers: gzip has a checksum of its own. What was changed on purpose, ``mbla ver
 from __future__ import annotations
 
 import io
-import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -22,21 +21,14 @@ from mbla.deck.units import Units
 from mbla.errors import FileError
 from mbla.results.hdf5.content import content_of, root_attributes
 from mbla.results.hdf5.layout import (
-    ATTRIBUTES,
-    FILETYPE,
     SHARED_DIMENSIONS,
-    VERSION,
     Content,
     Value,
-    check_indices,
     differences,
     fields_of,
-    read_field,
-    strings,
-    text_of,
 )
-from mbla.results.hdf5.restore import results_from
-from mbla.results.record.quantity import NOT_VERIFIED, Quantity, unit_text
+from mbla.results.hdf5.reading import DAMAGE, asked_of, in_one_line, results_of
+from mbla.results.quantities.quantity import NOT_VERIFIED, Quantity, unit_text
 from mbla.results.record.scene import as_text
 from mbla.results.results import Results
 
@@ -46,11 +38,6 @@ if TYPE_CHECKING:
 CHUNK_BYTES = 1 << 20
 COMPACT_BYTES, COMPACT_VALUE_BYTES = 1024, 60_000
 """arrays and single values up to these sizes stand in the object header, which holds at most 64 KiB"""
-LARGEST_RATIO = 2000
-"""an array cannot be larger than this many times its file: gzip reaches about 1000"""
-
-DAMAGE = (KeyError, RuntimeError, ValueError, TypeError, IndexError, AttributeError, OverflowError, MemoryError)
-"""what reading a damaged file may end with"""
 
 
 @dataclass(frozen=True)
@@ -110,25 +97,38 @@ def _image() -> Iterator[tuple[io.BytesIO, h5py.File]]:
 
 
 def read_results_hdf5(path: Path) -> Results:
-    """Results from a file, complete: nothing of a run is missing but the live objects of the deck.
+    """Results from a file: its deck builds model and contacts again, its arrays are what was found.
 
-    Raises FileError where the file cannot be read, is not an mbla result, has another layout version or is damaged.
+    Raises FileError where the file cannot be read, is not an mbla result, has another layout version or is damaged,
+    and where its arrays are not of what its deck gives.
     """
     import h5py
 
     _try_opening(path)
     try:
         with h5py.File(path, "r", locking=False) as file:
-            attributes = _read_attributes(file, path)
-            content = _read_content(file, path.stat().st_size)
-            return results_from(content, attributes)
+            return results_of(file, path)
     except FileError:
         raise
     except OSError as error:
-        what = "not an HDF5 file" if "signature not found" in str(error) else f"damaged: {_short(error)}"
+        what = "not an HDF5 file" if "signature not found" in str(error) else f"damaged: {in_one_line(error)}"
         raise FileError("damaged-result-file", f"{path}: {what}") from error
     except DAMAGE as error:
-        raise FileError("damaged-result-file", f"{path}: damaged: {_short(error)}") from error
+        raise FileError("damaged-result-file", f"{path}: damaged: {in_one_line(error)}") from error
+
+
+def read_asked(path: Path, cases: Iterable[str]) -> Content:
+    """What a file holds of run, model, contacts and loads, as it stands there; of damaged datasets their fault.
+
+    Raises FileError where the file is damaged.
+    """
+    import h5py
+
+    try:
+        with h5py.File(path, "r", locking=False) as file:
+            return asked_of(file, path, cases)
+    except (OSError, *DAMAGE) as error:
+        raise FileError("damaged-result-file", f"{path}: damaged: {in_one_line(error)}") from error
 
 
 def differences_of_file(path: Path, image: bytes) -> tuple[str, ...]:
@@ -141,7 +141,7 @@ def differences_of_file(path: Path, image: bytes) -> tuple[str, ...]:
         with h5py.File(path, "r", locking=False) as found, h5py.File(io.BytesIO(image), "r") as wanted:
             return tuple(differences(found, wanted))
     except (OSError, *DAMAGE) as error:
-        return (f"it cannot be compared with what was recomputed: {_short(error)}",)
+        return (f"it cannot be compared with what was recomputed: {in_one_line(error)}",)
 
 
 def _try_opening(path: Path) -> None:
@@ -154,14 +154,6 @@ def _try_opening(path: Path) -> None:
         path.open("rb").close()
     except OSError as error:
         raise FileError("file-unreadable", f"{path}: {error.strerror or error}") from error
-
-
-def _short(error: BaseException) -> str:
-    """The first line of an error in words, of HDF5 the cause alone; a KeyError puts its text in quotes."""
-    text = str(error.args[0]) if isinstance(error, KeyError) and error.args else str(error)
-    line = text.splitlines()[0] if text else type(error).__name__
-    cause = re.fullmatch(r"(?:Unable to|Can't) [a-z ]+\((.+)\)", line)
-    return cause[1] if cause else line
 
 
 def write_labelled_hdf5(content: LabelledFile) -> bytes:
@@ -266,61 +258,4 @@ def _create(file: h5py.File, path: str, array: np.typing.NDArray[Any]) -> h5py.h
     space = h5s.create_simple(array.shape) if array.ndim else h5s.create(h5s.SCALAR)
     dataset = h5d.create(file.id, path.encode(), h5t.py_create(array.dtype, logical=True), space, properties, links)
     dataset.write(h5s.ALL, h5s.ALL, array, h5t.py_create(array.dtype))
-    return dataset
-
-
-# --- reading ------------------------------------------------------------------------------------------------------
-
-
-def _read_attributes(file: h5py.File, path: Path) -> dict[str, str | int]:
-    """Root attributes; what the file is and its version come first."""
-    if "filetype" not in file.attrs or text_of(file.attrs["filetype"]) != FILETYPE:
-        raise FileError("damaged-result-file", f"{path}: not an mbla result file")
-    version = int(file.attrs["version"])
-    if version != VERSION:
-        wrote = text_of(file.attrs.get("mbla_version", "of unknown version"))
-        remedy = "run the deck again; its text is in /deck/source_texts" if version < VERSION else "use a newer mbla"
-        raise FileError(
-            "old-result-file",
-            f"{path}: layout version {version}, written by mbla {wrote}; this mbla reads version {VERSION}: {remedy}",
-        )
-    return {
-        name: int(file.attrs[name]) if name in ("version", "complete") else text_of(file.attrs[name])
-        for name in ATTRIBUTES
-    }
-
-
-def _read_content(file: h5py.File, file_bytes: int) -> Content:
-    content: Content = {}
-    sizes: dict[str, int] = {"axis": 3, "direction": 3, "component": 6, "pair": 2, "unit": 3}
-    cases = strings(_dataset(file, "model/load_cases", file_bytes))
-    parts: dict[str, set[bool]] = {}
-    fields = fields_of(cases)
-    for path, field in fields:
-        present = path in file
-        if field.part:
-            parts.setdefault(f"{path.split('/')[1]}: {field.part}", set()).add(present)
-        elif not present:
-            raise ValueError(f"{path} is missing")
-        if present:
-            content[path] = read_field(_dataset(file, path, file_bytes), path, field, sizes)
-    incomplete = [part for part, presence in parts.items() if len(presence) > 1]
-    if incomplete:
-        raise ValueError(f"incomplete: {', '.join(incomplete)}")
-    for path, field in fields:
-        if path in content:
-            check_indices(path, field, content[path], sizes)
-    return content
-
-
-def _dataset(file: h5py.File, path: str, file_bytes: int) -> h5py.Dataset:
-    import h5py
-
-    dataset = file[path]
-    if not isinstance(dataset, h5py.Dataset):
-        raise ValueError(f"{path} is not a dataset")
-    if dataset.file != file or dataset.external or dataset.is_virtual:
-        raise ValueError(f"{path} stands in another file")
-    if dataset.nbytes > LARGEST_RATIO * file_bytes:
-        raise ValueError(f"{path} claims {dataset.nbytes} bytes")
     return dataset

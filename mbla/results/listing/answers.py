@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import Any
 
 import numpy as np
 
@@ -16,26 +15,9 @@ from mbla.results.force_range import ForceRange, end_value
 from mbla.results.listing.blocks import GAP, Fact, ListingSection, Paragraph, apart, table_of
 from mbla.results.listing.text import counted, number, vector
 from mbla.results.outcome import answer_bounds, answer_of, associative_of, least_of, result_of
-from mbla.results.record.json_values import number as json_number
 from mbla.results.results import CaseResult
 from mbla.results.series import Series, factor_of, position_of
 from mbla.solution.solution import Status
-
-
-def reaction_json(case: CaseResult) -> dict[str, Any] | None:
-    """The reaction with its bounds (those of associative flow) and what the load factor is counted from and in."""
-    question = case.load_case.question
-    if question.group != "reaction":
-        return None
-    low, high = answer_bounds(case)
-    return {
-        "value": json_number(answer_of(case)),
-        "lower_bound": json_number(low),
-        "upper_bound": json_number(high),
-        "at_rest": json_number(question.value(0.0)),
-        "unit": json_number(question.scale),
-        "kind": question.kind,
-    }
 
 
 def answer_facts(model: Model, case: CaseResult) -> list[Fact]:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Any
 
 import numpy as np
 
@@ -139,23 +138,14 @@ def _verification(case: CaseResult) -> Fact:
     return Fact("verification", "passed: everything recomputed from model, contacts and solution")
 
 
-def solver_json(solution: Solution) -> dict[str, Any]:
-    """The solver asked for, those that took the cone programs, and the libraries that factorised for them."""
-    return {
-        "asked": solution.solver or None,
-        "used": _distinct(program.solver for program in solution.programs),
-        "factorization": _distinct(program.factorization for program in solution.programs),
-    }
-
-
 def solver_facts(solution: Solution) -> list[Fact]:
     """Who solved the cone programs, and what factorised for them."""
     used = [[program.solver, program.factorization] for program in solution.programs if program.solver]
-    names = _distinct(f"{solver} ({library})" if library else solver for solver, library in used)
+    names = distinct(f"{solver} ({library})" if library else solver for solver, library in used)
     return [Fact("solver", ", ".join(names))] if names else []
 
 
-def _distinct(names: Iterable[str]) -> list[str]:
+def distinct(names: Iterable[str]) -> list[str]:
     """Each once, in the order of their first appearance, none empty."""
     return [name for name in dict.fromkeys(names) if name]
 

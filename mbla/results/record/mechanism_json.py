@@ -2,152 +2,312 @@
 
 from __future__ import annotations
 
-from collections import Counter
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from functools import partial
-from typing import Any
+from dataclasses import dataclass
+from functools import cached_property
 
 from mbla.assembly.assembly import Assembly
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import LoadCase, Model
-from mbla.results.collapse.collapse import Collapse, collapse_of, failure_of, mechanism_class
+from mbla.results.collapse.collapse import Collapse, Failure, collapse_of, failure_of, mechanism_class
 from mbla.results.collapse.cracks import Crack, YieldLine
-from mbla.results.collapse.force_freedom import ForceFreedom, enough_of, force_freedom
+from mbla.results.collapse.force_freedom import Enough, ForceFreedom, enough_of
+from mbla.results.collapse.force_freedom import force_freedom as freedom_of
 from mbla.results.collapse.interface_modes import InterfaceMode
-from mbla.results.collapse.joint_planes import HingeLine
+from mbla.results.collapse.joint_planes import HingeLine, SlidingPlane
 from mbla.results.collapse.mechanics import dissipated_by_joint, loads_by_group
-from mbla.results.collapse.rigid_parts import PartMotion, moving_blocks, moving_share, reach
-from mbla.results.record.json_values import as_json, number
+from mbla.results.collapse.rigid_parts import PartMotion, moving_share
+from mbla.results.collapse.rigid_parts import moving_blocks as free_blocks_that_move
+from mbla.results.collapse.rigid_parts import reach as reach_of
+from mbla.results.record.mechanism_lines import CRACK, HINGE_LINE, PART, SLIDING_PLANE, YIELD_LINE, Part
+from mbla.results.record.objects import Object
 from mbla.solution.solution import ContactMode, Mechanics
-
-POINT_MODES = (ContactMode.OPEN, ContactMode.SLIDE, ContactMode.CRUSH, ContactMode.STICK)
 
 MOST = 100
 """objects of each kind that the record holds, those that move most"""
 
 
-class OnDemand(Mapping[str, Any]):
-    """Keys are known, each value is worked out where it is asked for."""
+@dataclass(frozen=True)
+class Mechanism:
+    """A mechanism with what follows from it; ``dimension``: in which the case was solved."""
 
-    def __init__(self, makers: Mapping[str, Callable[[], Any]]) -> None:
-        self._makers = dict(makers)
+    assembly: Assembly
+    load_case: LoadCase
+    mechanics: Mechanics
+    dimension: int
 
-    def __getitem__(self, key: str) -> Any:
-        """The value; KeyError where there is no such key."""
-        return self._makers[key]()
+    @cached_property
+    def model(self) -> Model:
+        """As it may move under the load case."""
+        return self.assembly.model.of_case(self.load_case)
 
-    def __contains__(self, key: object) -> bool:
-        return key in self._makers
+    @property
+    def contacts(self) -> Contacts:
+        """As found."""
+        return self.assembly.contacts
 
-    def __iter__(self) -> Iterator[str]:
-        return iter(self._makers)
+    @property
+    def collapse(self) -> Collapse:
+        """What follows from it."""
+        return collapse_of(self.assembly, self.load_case, self.mechanics)
 
-    def __len__(self) -> int:
-        return len(self._makers)
+    @property
+    def failure(self) -> Failure:
+        """Clusters and the lines between them."""
+        return failure_of(self.model, self.contacts, self.collapse, self.mechanics)
+
+    @property
+    def share(self) -> float:
+        """Of the weight of the free blocks that moves."""
+        return moving_share(self.model, self.collapse.parts)
+
+    def parts(self, motions: tuple[PartMotion, ...]) -> list[Part]:
+        """The heaviest of them."""
+        return [Part(self.model, motion) for motion in motions[:MOST]]
+
+    def count(self, mode: ContactMode) -> int:
+        """Contact points of a mode."""
+        return int((self.mechanics.modes == mode).sum())
 
 
-def mechanism_json(assembly: Assembly, load_case: LoadCase, mechanics: Mechanics, dimension: int) -> OnDemand:
-    """Contact points by mode, interfaces by mode, parts and work; ``dimension``: in which the case was solved.
+MECHANISM = Object[Mechanism](on_demand=True)
+"""values take as long as to verify a small model"""
+FREEDOM, ENOUGH, WORK, GROUP = (
+    Object[ForceFreedom](),
+    Object[Enough](),
+    Object[Mechanism](),
+    Object[tuple[float, float]](),
+)
 
-    A value is found when it is asked for: all of them take as long as to verify a small model.
+
+@MECHANISM.key(name="class")
+def failure_class(of: Mechanism) -> str:
+    """In a word: sliding, twisting, overturning (parts turn on the stationary blocks), hinging (they hinge on each
+    other), sliding and hinging, opening.
     """
-    model, contacts = assembly.model.of_case(load_case), assembly.contacts
-
-    def collapse() -> Collapse:
-        return collapse_of(assembly, load_case, mechanics)
-
-    def failure() -> Any:
-        return failure_of(model, contacts, collapse(), mechanics)
-
-    def lines(name: str) -> list[dict[str, Any]]:
-        return [line_json(line) for line in getattr(failure(), name)[:MOST]]
-
-    def parts(motions: Sequence[PartMotion]) -> list[dict[str, Any]]:
-        return [part_json(model, motion) for motion in motions[:MOST]]
-
-    def share() -> float:
-        return moving_share(model, collapse().parts)
-
-    return OnDemand(
-        {"class": lambda: mechanism_class(failure()).value}
-        | {mode.name.lower(): partial(lambda mode: int((mechanics.modes == mode).sum()), mode) for mode in POINT_MODES}
-        | {
-            "interfaces": lambda: {mode.name.lower(): collapse().interfaces.count(mode) for mode in InterfaceMode},
-            "hinges": lambda: collapse().interfaces.count(InterfaceMode.HINGE),
-            "reach": lambda: reach(share()),
-            "moving_blocks": lambda: moving_blocks(model, collapse().parts),
-            "moving_weight_share": lambda: number(share()),
-            "moving_parts": lambda: len(collapse().motions),
-            "parts": lambda: parts(collapse().motions),
-            "clusters_merged": lambda: number(1.0 - failure().explained),
-            "clusters": lambda: parts(failure().motions),
-            "hinge_lines": lambda: lines("hinge_lines"),
-            "sliding_planes": lambda: lines("sliding_planes"),
-            "cracks": lambda: lines("cracks"),
-            "main_parts": lambda: parts(failure().motions),
-            "main_parts_explain": lambda: number(failure().explained),
-            "yield_lines": lambda: lines("yield_lines"),
-            "force_freedom": lambda: _force_freedom(force_freedom(assembly.glued(load_case), mechanics, dimension)),
-            "enough": lambda: _enough(model, contacts, collapse()),
-            "work": lambda: _work(model, contacts, load_case, mechanics, collapse()),
-        }
-    )
+    return mechanism_class(of.failure).value
 
 
-def line_json(found: Any) -> dict[str, Any]:
-    """A hinge line, sliding plane, crack or yield line with its length and inclination."""
-    record: dict[str, Any] = as_json(found)
-    if isinstance(found, (HingeLine, Crack, YieldLine)):
-        record["length"] = number(found.length)
-    if isinstance(found, YieldLine):
-        record["inclination"] = number(found.inclination)
-    return record
+@MECHANISM.key(name="open")
+def opens(of: Mechanism) -> int:
+    """Contact points that open."""
+    return of.count(ContactMode.OPEN)
 
 
-def part_json(model: Model, part: PartMotion) -> dict[str, Any]:
-    """Blocks by group, and how they move: ``turns`` about an axis or ``moves`` along a direction."""
-    groups = Counter(model.blocks.groups[block] for block in part.blocks.tolist())
-    return {
-        "part": part.number,
-        "blocks": len(part.blocks),
-        "groups": dict(sorted(groups.items())),
-        "weight": number(part.weight),
-        "motion": "turns" if part.turns else "moves",
-        "axis_point": as_json(part.axis_point) if part.turns else None,
-        "direction": as_json(part.direction),
-    }
+@MECHANISM.key()
+def slide(of: Mechanism) -> int:
+    """Contact points that slide."""
+    return of.count(ContactMode.SLIDE)
 
 
-def _force_freedom(freedom: ForceFreedom | str) -> dict[str, int] | None:
-    """Counts of how unique the forces are: see :mod:`mbla.results.collapse.force_freedom`."""
-    if isinstance(freedom, str):
-        return None
-    return {"ways": freedom.degree, "determined": int(freedom.determined.sum())}
+@MECHANISM.key()
+def crush(of: Mechanism) -> int:
+    """Contact points that crush."""
+    return of.count(ContactMode.CRUSH)
 
 
-def _enough(model: Model, contacts: Contacts, collapse: Collapse) -> dict[str, int]:
-    """Counts of the part relevant to the load factor: see :mod:`mbla.results.collapse.force_freedom`."""
-    enough = enough_of(model, contacts, collapse.parts)
-    return {
-        "moving_blocks": len(enough.moving),
-        "interfaces": len(enough.interfaces),
-        "bearing_blocks": len(enough.bearing),
-        "left_out_blocks": len(enough.left_out),
-    }
+@MECHANISM.key()
+def stick(of: Mechanism) -> int:
+    """Contact points that do none of these."""
+    return of.count(ContactMode.STICK)
 
 
-def _work(
-    model: Model, contacts: Contacts, load_case: LoadCase, mechanics: Mechanics, collapse: Collapse
-) -> dict[str, Any]:
-    """Powers, with unit power of the live load: ``live`` is the load factor, ``dead`` negative where weights rise."""
-    work = collapse.work
-    return {
-        "live": number(work.live),
-        "dead": number(work.dead),
-        **{name: number(float(getattr(work, name).sum())) for name in ("friction", "cohesion", "normal")},
-        "joints": {name: number(sum(powers)) for name, powers in dissipated_by_joint(contacts, work).items()},
-        "groups": {
-            name: {"live": number(live), "dead": number(dead)}
-            for name, (live, dead) in loads_by_group(model, load_case, mechanics).items()
-        },
-    }
+@MECHANISM.key("interfaces that stick, slide, open, hinge, twist, crush")
+def interfaces(of: Mechanism) -> dict[str, int]:
+    """Interfaces by mode."""
+    return {mode.name.lower(): of.collapse.interfaces.count(mode) for mode in InterfaceMode}
+
+
+@MECHANISM.key()
+def hinges(of: Mechanism) -> int:
+    """Interfaces that hinge."""
+    return of.collapse.interfaces.count(InterfaceMode.HINGE)
+
+
+@MECHANISM.key()
+def reach(of: Mechanism) -> str:
+    """Local, partial or global."""
+    return reach_of(of.share)
+
+
+@MECHANISM.key()
+def moving_blocks(of: Mechanism) -> int:
+    """Free blocks that move."""
+    return free_blocks_that_move(of.model, of.collapse.parts)
+
+
+@MECHANISM.key()
+def moving_weight_share(of: Mechanism) -> float:
+    """Their share of the weight of the free blocks."""
+    return of.share
+
+
+@MECHANISM.key()
+def moving_parts(of: Mechanism) -> int:
+    """Rigid parts that move."""
+    return len(of.collapse.motions)
+
+
+@MECHANISM.key("one of them", inside=PART)
+def parts(of: Mechanism) -> list[Part]:
+    """The heaviest of them, at most 100."""
+    return of.parts(of.collapse.motions)
+
+
+@MECHANISM.key()
+def clusters_merged(of: Mechanism) -> float:
+    """Share of the motion, as volume-weighted square, neglected by merging rigid parts; 0: none merged."""
+    return 1.0 - of.failure.explained
+
+
+@MECHANISM.key("one of them", inside=PART)
+def clusters(of: Mechanism) -> list[Part]:
+    """Rigid parts as they are listed, those that move, at most 100."""
+    return of.parts(of.failure.motions)
+
+
+@MECHANISM.key("one of them", inside=HINGE_LINE)
+def hinge_lines(of: Mechanism) -> list[HingeLine]:
+    """Axes about which one cluster turns relative to another, that which moves most first."""
+    return list(of.failure.hinge_lines[:MOST])
+
+
+@MECHANISM.key("one of them", inside=SLIDING_PLANE)
+def sliding_planes(of: Mechanism) -> list[SlidingPlane]:
+    """Planes on which one cluster slides over another, that which dissipates most first."""
+    return list(of.failure.sliding_planes[:MOST])
+
+
+@MECHANISM.key("one of them", inside=CRACK)
+def cracks(of: Mechanism) -> list[Crack]:
+    """Open joints between two clusters, those that open most first."""
+    return list(of.failure.cracks[:MOST])
+
+
+@MECHANISM.key("one of them", inside=PART)
+def main_parts(of: Mechanism) -> list[Part]:
+    """The few rigid parts that approximate the mechanism: the clusters."""
+    return of.parts(of.failure.motions)
+
+
+@MECHANISM.key()
+def main_parts_explain(of: Mechanism) -> float:
+    """Share of the motion, as volume-weighted square, that they reproduce."""
+    return of.failure.explained
+
+
+@MECHANISM.key("one of them", inside=YIELD_LINE)
+def yield_lines(of: Mechanism) -> list[YieldLine]:
+    """Lines along which clusters break off, the longest first."""
+    return list(of.failure.yield_lines[:MOST])
+
+
+@MECHANISM.key(inside=FREEDOM)
+def force_freedom(of: Mechanism) -> ForceFreedom | None:
+    """How unique the forces are; null where that was not determined."""
+    found = freedom_of(of.assembly.glued(of.load_case), of.mechanics, of.dimension)
+    return None if isinstance(found, str) else found
+
+
+@MECHANISM.key(inside=ENOUGH)
+def enough(of: Mechanism) -> Enough:
+    """The part of the structure relevant to this load factor."""
+    return enough_of(of.model, of.contacts, of.collapse.parts)
+
+
+@MECHANISM.key(inside=WORK)
+def work(of: Mechanism) -> Mechanism:
+    """Powers, with unit power of the live load."""
+    return of
+
+
+# --- Forces and powers ------------------------------------------------------------------------------------------------
+
+
+@FREEDOM.key()
+def ways(freedom: ForceFreedom) -> int:
+    """Degree of static indeterminacy of the contact forces; 0: unique."""
+    return freedom.degree
+
+
+@FREEDOM.key()
+def determined(freedom: ForceFreedom) -> int:
+    """Interfaces whose resultant is unique."""
+    return int(freedom.determined.sum())
+
+
+@ENOUGH.key(name="moving_blocks")
+def blocks_that_move(enough: Enough) -> int:
+    """Blocks that move."""
+    return len(enough.moving)
+
+
+@ENOUGH.key(name="interfaces")
+def interfaces_on_them(enough: Enough) -> int:
+    """Interfaces on them."""
+    return len(enough.interfaces)
+
+
+@ENOUGH.key()
+def bearing_blocks(enough: Enough) -> int:
+    """Free blocks at rest that these touch."""
+    return len(enough.bearing)
+
+
+@ENOUGH.key()
+def left_out_blocks(enough: Enough) -> int:
+    """Free blocks at rest that touch nothing that moves."""
+    return len(enough.left_out)
+
+
+@WORK.key()
+def live(of: Mechanism) -> float:
+    """Load factor times the power of the live load."""
+    return of.collapse.work.live
+
+
+@WORK.key()
+def dead(of: Mechanism) -> float:
+    """Of the dead load, negative where weights are lifted."""
+    return of.collapse.work.dead
+
+
+@WORK.key()
+def friction(of: Mechanism) -> float:
+    """Dissipated by sliding under friction."""
+    return float(of.collapse.work.friction.sum())
+
+
+@WORK.key()
+def cohesion(of: Mechanism) -> float:
+    """Dissipated by sliding against cohesion."""
+    return float(of.collapse.work.cohesion.sum())
+
+
+@WORK.key()
+def normal(of: Mechanism) -> float:
+    """Dissipated by normal forces."""
+    return float(of.collapse.work.normal.sum())
+
+
+@WORK.key("in the interfaces of a joint law")
+def joints(of: Mechanism) -> dict[str, float]:
+    """Dissipated by joint law."""
+    return {name: sum(powers) for name, powers in dissipated_by_joint(of.contacts, of.collapse.work).items()}
+
+
+@WORK.key("of a group", name="groups", inside=GROUP)
+def loads_of_groups(of: Mechanism) -> dict[str, tuple[float, float]]:
+    """Of the loads by group."""
+    return loads_by_group(of.model, of.load_case, of.mechanics)
+
+
+@GROUP.key(name="live")
+def live_of_group(powers: tuple[float, float]) -> float:
+    """Of the live load on it."""
+    return powers[0]
+
+
+@GROUP.key(name="dead")
+def dead_of_group(powers: tuple[float, float]) -> float:
+    """Of the dead load on it."""
+    return powers[1]

@@ -13,7 +13,7 @@ from mbla.arrays import FloatArray, IntArray
 from mbla.assembly.assembly import Assembly
 from mbla.assembly.rigid_bodies import RigidBodies
 from mbla.contacts.contacts import Contacts
-from mbla.model.model import Model
+from mbla.model.model import LoadCase, Model
 from mbla.results.collapse.collapse import Collapse, collapse_of
 from mbla.results.collapse.interface_modes import InterfaceMotion
 from mbla.results.collapse.mechanics import interface_resultants
@@ -44,6 +44,17 @@ class Scene:
     def model(self) -> Model:
         """As it may move under the load case."""
         return self.assembly.model if self.case is None else self.assembly.model.of_case(self.case.load_case)
+
+    @property
+    def solved(self) -> CaseResult:
+        """The load case, of scenes that have one."""
+        assert self.case is not None
+        return self.case
+
+    @property
+    def load_case(self) -> LoadCase | None:
+        """As it was solved."""
+        return None if self.case is None else self.case.load_case
 
     @property
     def contacts(self) -> Contacts:
@@ -159,6 +170,18 @@ class Scene:
     def parts(self) -> IntArray:
         """Part of each block in the motion as drawn, (n_blocks,), 0 at rest."""
         return rigid_parts(self.model, self.bodies, self.motion) if self.collapse is None else self.collapse.parts
+
+
+@dataclass(frozen=True)
+class AskedScene(Scene):
+    """A load case as it is asked for, solved or not."""
+
+    asked: LoadCase
+
+    @property
+    def load_case(self) -> LoadCase:
+        """The one that is asked for."""
+        return self.asked
 
 
 def scene_of(results: Results, case: CaseResult) -> Scene:

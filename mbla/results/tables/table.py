@@ -10,8 +10,7 @@ import numpy as np
 
 from mbla.deck.units import Units
 from mbla.errors import UsageError
-from mbla.results.record.columns import Column
-from mbla.results.record.quantity import COMPONENTS, Quantity, unit_text
+from mbla.results.quantities.quantity import COMPONENTS, Quantity, unit_text
 from mbla.results.record.scene import Scene, Values, as_text
 from mbla.results.results import CaseResult, Results
 
@@ -27,16 +26,16 @@ class TableKind:
     """The description of a table.
 
     words  : what a row is
-    record : its columns as the record has them
+    record : the quantities that are its columns
     parts  : what makes its rows, one after the other: results and the cases that are asked for -> parts
-    values : of a column of the record in a part, (n_rows, ...)
+    values : of a quantity in a part, (n_rows, ...)
     """
 
     name: str
     words: str
-    record: tuple[Column, ...]
+    record: tuple[Quantity, ...]
     parts: Callable[[Results, tuple[CaseResult, ...]], Iterable[Any]]
-    values: Callable[[Column, Any], Values]
+    values: Callable[[Quantity, Any], Values]
 
     @property
     def columns(self) -> tuple[Quantity, ...]:
@@ -45,36 +44,47 @@ class TableKind:
         Floats are nan where there is no value, integers masked, text is empty.
         """
         return tuple(
-            replace(column.quantity, name=name, unit=unit, kind="text" if column.names else column.quantity.kind)
-            for column in self.record
-            for _, name, unit in column.quantity.components()
+            replace(quantity, name=name, unit=unit, kind="text" if quantity.names else quantity.kind)
+            for quantity in self.record
+            for _, name, unit in quantity.components()
         )
 
 
-def values_in_scene(column: Column, scene: Scene, count: int) -> Values:
-    """Values of a column in a scene, (count, ...); where there are none, nothing of its kind in every row."""
-    quantity = column.quantity
-    values: Values | str | None = column.of(scene)
-    if isinstance(values, str):
-        return as_text([values] * count)
-    if values is not None and column.names is not None:
-        return as_text(list(column.names(scene)))[values.astype(np.int64)]
-    if values is not None:
-        return as_text(["; ".join(values)]) if quantity.dims == ("sentence",) else values
+def values_of_case(quantity: Quantity, scene: Scene) -> Values:
+    """The value of a quantity in a scene as that of the only row, (1, ...)."""
+    value = quantity.of(scene)
+    if value is None:
+        return _nothing(quantity, 1)
+    if quantity.dims == ("sentence",):
+        return as_text(["; ".join(value)])
+    if quantity.names is not None:
+        return as_text([quantity.names(scene)[value]])
+    return as_text([str(value)]) if isinstance(value, str) else np.array([value])
+
+
+def values_in_scene(quantity: Quantity, scene: Scene, count: int) -> Values:
+    """Values of a quantity in a scene, (count, ...); where there are none, nothing of its kind in every row."""
+    values: Values | None = quantity.of(scene)
+    if values is None:
+        return _nothing(quantity, count)
+    return values if quantity.names is None else as_text(list(quantity.names(scene)))[values.astype(np.int64)]
+
+
+def _nothing(quantity: Quantity, count: int) -> Values:
     shape = (count, *(len(COMPONENTS[dim]) for dim in quantity.dims if dim in COMPONENTS))
-    if column.names is not None or quantity.kind == "text":
+    if quantity.names is not None or quantity.kind == "text":
         return np.full(shape, "", dtype=object)
     if quantity.kind == "float":
         return np.full(shape, np.nan)
     return np.ma.array(np.zeros(shape, dtype=np.int64), mask=True)
 
 
-def values_of_rows(column: Column, rows: Sequence[Any]) -> Values:
-    """Values of a column in a list of rows, (n_rows, ...)."""
-    found: list[Any] = [column.of(row) for row in rows]
-    if column.quantity.kind == "text":
+def values_of_rows(quantity: Quantity, rows: Sequence[Any]) -> Values:
+    """Values of a quantity in a list of rows, (n_rows, ...)."""
+    found: list[Any] = [quantity.of(row) for row in rows]
+    if quantity.kind == "text":
         return as_text([str(value) for value in found])
-    shape = (len(COMPONENTS[dim]) for dim in column.quantity.dims if dim in COMPONENTS)
+    shape = (len(COMPONENTS[dim]) for dim in quantity.dims if dim in COMPONENTS)
     return np.array(found).reshape(len(rows), *shape)
 
 
@@ -135,9 +145,9 @@ def unit_in(column: Quantity, units: Units) -> str:
 def table_of(kind: TableKind, results: Results, cases: tuple[CaseResult, ...]) -> Table:
     """The table of that kind for some cases of a result; raises AssertionError for columns of unequal length."""
     parts, columns, values = list(kind.parts(results, cases)), iter(kind.columns), list[Values]()
-    for column in kind.record:
-        found = [kind.values(column, part) for part in parts]
-        for place, *_ in column.quantity.components():
+    for quantity in kind.record:
+        found = [kind.values(quantity, part) for part in parts]
+        for place, *_ in quantity.components():
             values.append(_joined(next(columns), [_component(each, place) for each in found]))
     if len({len(column) for column in values}) > 1:
         raise AssertionError(f"columns of {kind.name} differ in length")

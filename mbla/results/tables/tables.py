@@ -7,32 +7,30 @@ nothing has to be read from names of files. Tables without rows are written too,
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from operator import itemgetter
 from pathlib import Path
-from types import SimpleNamespace
 from typing import Any
 
 from mbla.deck.units import Units
 from mbla.errors import UsageError
-from mbla.results.collapse.mechanics import reactions_of
-from mbla.results.collapse.ties import tie_rows
 from mbla.results.files import OutputFolder
 from mbla.results.outcome import notices_of
-from mbla.results.record.columns import (
-    BLOCK_COLUMNS,
-    CASE_COLUMNS,
-    INTERFACE_COLUMNS,
-    POINT_COLUMNS,
-    Column,
-    columns_of,
-)
-from mbla.results.record.quantity import STORED, Quantity
-from mbla.results.record.scene import Scene, Values, scene_of
+from mbla.results.quantities import further, series, solving, steps, supports, ties
+from mbla.results.quantities.group import Group
+from mbla.results.quantities.quantity import Quantity
+from mbla.results.quantities.registry import columns_of
+from mbla.results.record.scene import Scene, Values, as_text, scene_of
 from mbla.results.results import CaseResult, Results
-from mbla.results.series import chosen_cases, factor_of, position_of, series_of
+from mbla.results.series import chosen_cases
 from mbla.results.tables.formats import table_csv, table_parquet
-from mbla.results.tables.table import Table, TableKind, table_of, unit_in, values_in_scene, values_of_rows
-from mbla.solution.solution import Solution
+from mbla.results.tables.table import (
+    Table,
+    TableKind,
+    table_of,
+    unit_in,
+    values_in_scene,
+    values_of_case,
+    values_of_rows,
+)
 
 CASE = Quantity("case", "text", "load case")
 
@@ -44,102 +42,66 @@ def _scenes(results: Results, cases: tuple[CaseResult, ...]) -> list[Scene]:
     return [scene_of(results, case) for case in cases]
 
 
-def _of_scenes(name: str, words: str, columns: Sequence[Column], count: Callable[[Scene], int]) -> TableKind:
-    """Columns of the record after the name of the load case; ``count``: rows of a scene."""
+def _of_scenes(name: str, words: str, count: Callable[[Scene], int]) -> TableKind:
+    """Quantities after the name of the load case; ``count``: rows of a scene."""
 
-    def values(column: Column, scene: Scene) -> Values:
-        return values_in_scene(column, scene, count(scene))
+    def values(quantity: Quantity, scene: Scene) -> Values:
+        if quantity is CASE:
+            return as_text([scene.solved.load_case.name] * count(scene))
+        return values_of_case(quantity, scene) if name == "cases" else values_in_scene(quantity, scene, count(scene))
 
-    case = Column(CASE, lambda scene: scene.case.load_case.name, None, ("table",))
-    own = (column for column in columns if "table" in column.files)
-    return TableKind(name, words, (case, *own), _scenes, values)
+    return TableKind(name, words, (CASE, *_in_tables(name)), _scenes, values)
 
 
-CASES = _of_scenes("cases", "each load case", CASE_COLUMNS, lambda _: 1)
-BLOCKS = _of_scenes("blocks", "each block, for each load case", BLOCK_COLUMNS, lambda scene: len(scene.model.blocks))
-INTERFACES = _of_scenes(
-    "interfaces", "each interface, for each load case", INTERFACE_COLUMNS, lambda scene: len(scene.contacts)
-)
-POINTS = _of_scenes(
-    "points", "each contact point, for each load case", POINT_COLUMNS, lambda scene: len(scene.contacts.points)
-)
+def _in_tables(name: str) -> Iterator[Quantity]:
+    return (quantity for quantity in columns_of(name) if "table" in quantity.files)
+
+
+CASES = _of_scenes("cases", "each load case", lambda _: 1)
+BLOCKS = _of_scenes("blocks", "each block, for each load case", lambda scene: len(scene.model.blocks))
+INTERFACES = _of_scenes("interfaces", "each interface, for each load case", lambda scene: len(scene.contacts))
+POINTS = _of_scenes("points", "each contact point, for each load case", lambda scene: len(scene.contacts.points))
 
 
 # --- Tables of what there is to list: a part is a list of rows ------------------------------------------------------
 
 
-def _list_table(name: str, words: str, of: Callable[[Solution], Sequence[object]]) -> TableKind:
-    """A table of records that a solution lists, as the result file has them under a name."""
+def _of_rows(group: Group[Any], words: str) -> TableKind:
+    """What each load case lists, after its name."""
 
-    def rows(_: Results, cases: tuple[CaseResult, ...]) -> Iterator[list[Any]]:
-        for case in cases:
-            yield [vars(record) | {"case": case.load_case.name} for record in of(case.solution)]
+    def parts(results: Results, cases: tuple[CaseResult, ...]) -> Iterator[tuple[str, list[Any]]]:
+        for scene in _scenes(results, cases):
+            yield scene.solved.load_case.name, list(group.owner(scene) or ())
 
-    held = (quantity for quantity in STORED if quantity.place == f"cases/*/{name}")
-    columns = tuple(Column(each, itemgetter(each.name), None, ("table",)) for each in (CASE, *held))
-    return TableKind(name, words, columns, rows, values_of_rows)
+    def values(quantity: Quantity, part: tuple[str, list[Any]]) -> Values:
+        name, rows = part
+        return as_text([name] * len(rows)) if quantity is CASE else values_of_rows(quantity, rows)
 
-
-PROGRAMS = _list_table("programs", "each program that was solved for a load case", lambda solution: solution.programs)
-ITERATIONS = _list_table("iterations", "each iteration of each program", lambda solution: solution.iterations)
-PATH = _list_table("path", "each step of the path of elastic joints that was followed", lambda solution: solution.path)
-
-CURVE = _list_table("curve", "each step of a pushover", lambda solution: solution.further.pushover.curve)
-SENSITIVITY = _list_table(
-    "sensitivity",
-    "each parameter by which the load factor is known to change",
-    lambda solution: solution.further.sensitivity,
-)
+    return TableKind(group.table, words, (CASE, *_in_tables(group.table)), parts, values)
 
 
-def _reactions(results: Results, cases: tuple[CaseResult, ...]) -> Iterator[list[Any]]:
-    """Of supports, then of guides, in the order of the listing."""
-    for scene, case in zip(_scenes(results, cases), cases, strict=True):
-        if scene.mechanics is not None:
-            found = reactions_of(scene.model, scene.contacts, case.load_case, scene.mechanics)
-            yield [SimpleNamespace(scene=scene, case=case, **vars(reaction)) for reaction in found]
+REACTIONS = _of_rows(supports.REACTIONS, "each support of the structure at collapse, for each load case with forces")
+TIES = _of_rows(ties.TIES, "each tie, for each load case with forces")
+PROGRAMS = _of_rows(solving.PROGRAMS, "each program that was solved for a load case")
+ITERATIONS = _of_rows(solving.ITERATIONS, "each iteration of each program")
+PATH = _of_rows(solving.PATH, "each step of the path of elastic joints that was followed")
+CURVE = _of_rows(steps.CURVE, "each step of a pushover")
+SENSITIVITY = _of_rows(further.SENSITIVITY, "each parameter by which the load factor is known to change")
 
 
-REACTIONS = TableKind(
-    "reactions",
-    "each support of the structure at collapse, for each load case with forces",
-    columns_of("reactions"),
-    _reactions,
-    values_of_rows,
-)
-
-
-def _ties(results: Results, cases: tuple[CaseResult, ...]) -> Iterator[list[Any]]:
-    """Of every load case with forces, in the order of the deck."""
-    for scene, case in zip(_scenes(results, cases), cases, strict=True):
-        if scene.mechanics is not None:
-            rows = tie_rows(scene.model, scene.mechanics)
-            yield [SimpleNamespace(case=case, tie=row) for row in rows]
-
-
-TIES = TableKind("ties", "each tie, for each load case with forces", columns_of("ties"), _ties, values_of_rows)
-
-
-def _positions(results: Results, cases: tuple[CaseResult, ...]) -> Iterator[list[Any]]:
+def _positions(results: Results, cases: tuple[CaseResult, ...]) -> list[list[Any]]:
     """Positions of the cases asked for; the worst is that of all."""
-    names, blocks = {case.load_case.name for case in cases}, results.model.blocks
-    for series in series_of(results.cases):
-        rows = []
-        for case in (case for case in series.cases if case.load_case.name in names):
-            at = position_of(case)
-            block = int(at.blocks[0])
-            carrier = blocks.name(block) if block >= 0 else ""
-            axles = " ".join(f"{place:.9g}" for place in at.distances.tolist())
-            found = {"load_factor": factor_of(case), "worst": case is series.worst, "carrier": carrier, "axles": axles}
-            rows.append(SimpleNamespace(series=series, case=case, at=at, **found))
-        yield rows
+    names = {case.load_case.name for case in cases}
+    return [[row for row in series.positions(results) if row.case.load_case.name in names]]
 
 
-SERIES = TableKind("series", "each position of each travelling load", columns_of("series"), _positions, values_of_rows)
+SERIES = TableKind(
+    "series", "each position of each travelling load", tuple(columns_of("series")), _positions, values_of_rows
+)
 NOTICES = TableKind(
     "notices",
     "each remark of the run",
-    columns_of("notices"),
+    tuple(columns_of("notices")),
     lambda results, _: [notices_of(results)],
     values_of_rows,
 )

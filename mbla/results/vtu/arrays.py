@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 
 from mbla.deck.units import Units
-from mbla.results.record.columns import BLOCK_COLUMNS, INTERFACE_COLUMNS, POINT_COLUMNS, Column
-from mbla.results.record.quantity import Quantity, flag, integer, real, unit_text
+from mbla.results.quantities.quantity import Quantity, flag, integer, real, unit_text
+from mbla.results.quantities.registry import BLOCK_COLUMNS, INTERFACE_COLUMNS, POINT_COLUMNS
 from mbla.results.record.scene import Scene
 
 Arrays = dict[str, np.typing.NDArray[Any]]
@@ -27,7 +27,7 @@ CELLS = {
     "supports": "ground as slabs under what stands on it, fixed blocks, guided blocks, as polyhedra",
 }
 """files by what their names end in, and their cells"""
-COLUMNS: dict[tuple[str, str], tuple[Column, ...]] = {
+COLUMNS: dict[tuple[str, str], tuple[Quantity, ...]] = {
     ("blocks", "cells"): BLOCK_COLUMNS,
     ("frames", "cells"): BLOCK_COLUMNS,
     ("contacts", "points"): POINT_COLUMNS,
@@ -78,12 +78,12 @@ OTHERS: dict[tuple[str, str], tuple[Quantity, ...]] = {
 def arrays_of(scene: Scene, file: str, on: str, rows: Any = slice(None)) -> Arrays:
     """Arrays by name of the columns of a file, of some rows: those that there are, vectors as (n, 3)."""
     found: Arrays = {}
-    for column in COLUMNS[file, on]:
-        values = column.of(scene) if file in column.files else None
-        if values is not None:
+    for quantity in COLUMNS[file, on]:
+        values = quantity.of(scene) if file in quantity.files else None
+        if values is not None and not (quantity.names and list(quantity.names(scene)) == [""]):
             plain = np.ma.filled(values, -1)[rows]
             plain = plain.astype(np.int8) if plain.dtype == bool else plain
-            found |= {name: plain[(slice(None), *place)] for name, place in _names(column.quantity)}
+            found |= {name: plain[(slice(None), *place)] for name, place in _names(quantity)}
     return found
 
 
@@ -96,7 +96,7 @@ def _names(quantity: Quantity) -> list[tuple[str, tuple[int, ...]]]:
 
 def described(file: str, on: str) -> dict[str, Quantity]:
     """Every array that a file may hold, by name; one without forces or without a mechanism holds fewer."""
-    quantities: Sequence[Quantity] = [c.quantity for c in COLUMNS.get((file, on), ()) if file in c.files]
+    quantities: Sequence[Quantity] = [each for each in COLUMNS.get((file, on), ()) if file in each.files]
     return {name: each for each in (*quantities, *OTHERS.get((file, on), ())) for name, _ in _names(each)}
 
 

@@ -18,7 +18,7 @@ from mbla.results.collapse.motion import pushed_motions
 from mbla.results.files import OutputFolder
 from mbla.results.listing.verdict_words import verdict
 from mbla.results.pictures.camera import axes_of, view_of_case
-from mbla.results.record.columns import names_of
+from mbla.results.quantities.blocks import names_of
 from mbla.results.record.scene import Scene, scene_of
 from mbla.results.results import Results
 from mbla.results.vtu.loads import loads_mesh, supports_mesh

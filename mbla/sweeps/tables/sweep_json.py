@@ -20,7 +20,7 @@ from mbla import __version__
 from mbla.arrays import IntArray
 from mbla.errors import FileError, Notice
 from mbla.results.disk import file_errors
-from mbla.results.record.json_record import notice_json
+from mbla.results.record.json_record import NOTICE
 from mbla.results.record.json_values import number
 from mbla.results.record.keys import Key
 from mbla.results.record.scene import Values
@@ -64,7 +64,7 @@ def sweep_json(
         },
         "columns": [asdict(column) for column in table.columns],
         "fragility": [],
-        "notices": [notice_json(notice) for notice in notices],
+        "notices": [NOTICE.json(notice) for notice in notices],
         "time": {"total": number(seconds)},
         "files": [],
     }

@@ -17,7 +17,8 @@ from mbla.results.hdf5.result_file import (
     write_labelled_hdf5,
     write_results_hdf5,
 )
-from mbla.results.record.quantity import STORED, unit_text
+from mbla.results.quantities.quantity import unit_text
+from mbla.results.quantities.registry import STORED
 from tests.results.synthetic import full_results
 
 PAGE = Path(__file__).parents[3] / "schemas" / "results.md"

@@ -11,7 +11,6 @@ from mbla.results.listing.figures import (
     path_blocks,
     program_blocks,
     solver_facts,
-    solver_json,
 )
 from mbla.results.listing.model_words import FOUND, reduction_facts
 from mbla.results.listing.text import lines_of
@@ -38,19 +37,19 @@ def with_programs(*programs: tuple[str, str, str]) -> Results:
 
 
 def test_each_name_once_in_the_order_of_the_programs() -> None:
-    programs = taken(
+    results = with_programs(
         ("associative", "mbla", "cholmod"),
         ("reverse", "clarabel", "qdldl"),
         ("exact step", "", ""),
         ("flow programs", "mbla", "qdldl"),
     )
-    assert solver_json(replace(FIRST, solver="auto", programs=programs)) == {
+    assert results_json(results)["cases"][0]["solver"] == {
         "asked": "auto",
         "used": ["mbla", "clarabel"],
         "factorization": ["cholmod", "qdldl"],
     }
     said = [Fact("solver", "mbla (cholmod), clarabel (qdldl), mbla (qdldl)")]
-    assert solver_facts(replace(FIRST, programs=programs)) == said
+    assert solver_facts(results.cases[0].solution) == said
 
 
 def test_a_case_without_cone_programs_has_no_solver() -> None:

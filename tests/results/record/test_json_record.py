@@ -12,9 +12,11 @@ import pytest
 import mbla
 from mbla.results.collapse.mechanics import load_on_structure
 from mbla.results.provenance import CaseNeeds
-from mbla.results.record.json_record import check_json, powers_json, results_json, verification_json
+from mbla.results.quantities.quantity import UNVERIFIED
+from mbla.results.record.case_record import powers_of
+from mbla.results.record.check_record import check_json
+from mbla.results.record.json_record import results_json, verification_json
 from mbla.results.record.json_values import json_line
-from mbla.results.record.quantity import UNVERIFIED
 from mbla.results.results import Results
 from mbla.solution.solution import Standing, StandingResult, Status
 from tests.decks.folder import BENCHMARKS
@@ -115,7 +117,7 @@ def test_every_answer_is_in_the_record() -> None:
     assert case["least_load_factor"] == 0.45
     assert (case["path_end"], case["path_gain"], case["path_last"]) == ("falls", 0.02, 0.4)
     assert case["standing"] == {"verdict": "doubtful", "block": "tower[0]", "reason": "no plateau"}
-    assert case["remarks"] == ["the load still rises", "one more"]
+    assert case["remarks"] == ["the load still rises", "one more", "the mechanism moves in space"]
     assert (case["tension_violation"], case["slip_residual"]) == (1e-9, 2e-9)
     assert case["residuals"] == {
         "equilibrium": 1e-12,
@@ -178,10 +180,10 @@ def test_powers_are_relative_to_that_of_the_own_load() -> None:
     results = tower_results("associative")
     model, case = results.model, results.cases[0]
     twice = replace(model.load_cases[1], live_load=2 * model.load_cases[1].live_load)
-    told = powers_json(replace(model, load_cases=(model.load_cases[0], twice)), case)
+    told = powers_of(replace(model, load_cases=(model.load_cases[0], twice)), case)
     assert told == pytest.approx({"push_x": 1.0, "fall": 2.0})
     against = replace(case.load_case, live_load=-case.load_case.live_load)
-    assert powers_json(model, replace(case, load_case=against)) is None
+    assert powers_of(model, replace(case, load_case=against)) is None
     with pytest.raises(KeyError, match="push_y"):
         results.case("push_y")
     assert results.case("push_x") is case

@@ -9,8 +9,8 @@ import pytest
 
 from mbla.errors import UsageError
 from mbla.results.outcome import notices_of
-from mbla.results.record.columns import BLOCK_COLUMNS, CASE_COLUMNS, INTERFACE_COLUMNS, POINT_COLUMNS, Column
-from mbla.results.record.quantity import COMPONENTS
+from mbla.results.quantities.quantity import COMPONENTS, Quantity
+from mbla.results.quantities.registry import BLOCK_COLUMNS, CASE_COLUMNS, INTERFACE_COLUMNS, POINT_COLUMNS
 from mbla.results.results import Results
 from mbla.results.tables.tables import TABLES, tables_of
 from mbla.solution.solution import Status
@@ -73,8 +73,8 @@ def test_unknown_names_are_refused(results: Results, names: list[str], cases: li
 
 
 @pytest.mark.parametrize("columns", [CASE_COLUMNS, BLOCK_COLUMNS, INTERFACE_COLUMNS, POINT_COLUMNS])
-def test_every_dimension_of_a_column_has_names_for_its_components(columns: tuple[Column, ...]) -> None:
+def test_every_dimension_of_a_column_has_names_for_its_components(columns: tuple[Quantity, ...]) -> None:
     """Else a table that has values for it cannot be made; sentences are joined to one text."""
     rows = int(columns is not CASE_COLUMNS)
     known = {*COMPONENTS, "sentence"}
-    assert {dim for column in columns for dim in column.quantity.dims[rows:]} <= known
+    assert {dim for column in columns for dim in column.dims[rows:]} <= known

@@ -13,7 +13,7 @@ from mbla.assembly.assembly import Assembly
 from mbla.model.solids.blocks import labels_of
 from mbla.results.collapse.interface_modes import InterfaceMode
 from mbla.results.collapse.motion import SHARE_OF_SIZE, drawn_motion, movable_size, moved_vertices
-from mbla.results.record.columns import names_of
+from mbla.results.quantities.blocks import names_of
 from mbla.results.record.scene import Scene, scene_of
 from mbla.results.results import Results
 from mbla.results.vtu.mesh_files import collection_pvd

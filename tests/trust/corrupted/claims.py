@@ -111,7 +111,7 @@ def sound_files(folder: Path, names: tuple[str, ...] = tuple(DECKS)) -> dict[str
 
 def written_anew(path: Path, kind: str, forged: Results) -> None:
     """The file of results forged in some way, with every figure that follows from what they hold."""
-    deck, _ = rebuilt(forged)
+    deck, _ = rebuilt(forged, {})
     whole = forged if kind in FOLLOWING else recomputed(forged, deck)
     path.write_bytes(write_results_hdf5(replace(whole, exit_code=exit_code(whole.cases, whole.notices))))
 

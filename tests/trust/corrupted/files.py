@@ -11,7 +11,7 @@ import numpy as np
 
 from mbla.process.run_options import RunOptions
 from mbla.results.hdf5.layout import AGREEMENT, LINKS
-from mbla.results.record.quantity import STORED
+from mbla.results.quantities.registry import STORED
 from mbla.run import run
 from tests.decks.folder import BENCHMARKS
 

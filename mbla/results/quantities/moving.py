@@ -1,0 +1,51 @@
+"""What moves in a load case: parts, blocks, interfaces by mode."""
+
+from __future__ import annotations
+
+from mbla.results.collapse.collapse import Collapse
+from mbla.results.collapse.interface_modes import InterfaceMode, InterfaceMotion
+from mbla.results.collapse.rigid_parts import moving_blocks as free_blocks_that_move
+from mbla.results.collapse.rigid_parts import moving_share
+from mbla.results.quantities.group import Group
+from mbla.results.quantities.points import figure_names
+from mbla.results.record.scene import FIGURES, Scene
+
+SCENE = Group[Scene](lambda scene: scene, table="cases")
+_COLLAPSE = Group[Collapse](lambda scene: scene.collapse, table="cases")
+_INTERFACES = Group[InterfaceMotion](lambda scene: scene.interfaces, table="cases")
+
+
+@SCENE.quantity("table", names=figure_names)
+def figures(scene: Scene) -> int:
+    """What forces and velocities are: 1 result, 2 best_iterate: no result, 3 lock: balance the live load, 0 none."""
+    return FIGURES.index(scene.figures)
+
+
+@SCENE.quantity("table")
+def moving_weight_share(scene: Scene) -> float | None:
+    """Share of the weight of the free blocks that moves."""
+    return None if scene.collapse is None else moving_share(scene.model, scene.collapse.parts)
+
+
+@SCENE.quantity("table")
+def moving_blocks(scene: Scene) -> int | None:
+    """Free blocks that move."""
+    return None if scene.collapse is None else free_blocks_that_move(scene.model, scene.collapse.parts)
+
+
+@_COLLAPSE.quantity("table")
+def moving_parts(collapse: Collapse) -> int:
+    """Rigid parts that move."""
+    return len(collapse.motions)
+
+
+def _declare_mode(mode: InterfaceMode) -> None:
+    def count(interfaces: InterfaceMotion) -> int:
+        return interfaces.count(mode)
+
+    count.__doc__ = f"interfaces of mode {mode.name.lower()}"
+    _INTERFACES.quantity("table", name=f"{mode.name.lower()}_interfaces")(count)
+
+
+for _mode in InterfaceMode:
+    _declare_mode(_mode)

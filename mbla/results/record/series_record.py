@@ -1,0 +1,159 @@
+"""Travelling loads and forces that are sought, as objects of the JSON record."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from mbla.arrays import FloatArray
+from mbla.model.model import Model
+from mbla.questions.force import Force
+from mbla.results.force_range import ForceRange, end_value
+from mbla.results.outcome import answer_bounds
+from mbla.results.quantities import series as quantities
+from mbla.results.quantities.series import Position
+from mbla.results.record.objects import Object
+from mbla.results.results import CaseResult
+from mbla.results.series import Series
+
+
+@dataclass(frozen=True)
+class SeriesOfModel:
+    """A travelling load and the model that it crosses."""
+
+    model: Model
+    series: Series
+
+
+@dataclass(frozen=True)
+class Axle:
+    """One of a position."""
+
+    position: Position
+    number: int
+
+
+SERIES, POSITION, AXLE = Object[SeriesOfModel](), Object[Position](), Object[Axle]()
+OBJECTIVE, END = Object[ForceRange](), Object[CaseResult]()
+
+
+@SERIES.key()
+def name(of: SeriesOfModel) -> str:
+    """Load case in the deck."""
+    return of.series.name
+
+
+@SERIES.key()
+def complete(of: SeriesOfModel) -> bool:
+    """Whether every position was solved, none left out by name."""
+    return of.series.complete
+
+
+@SERIES.key("a position", inside=POSITION)
+def positions(of: SeriesOfModel) -> list[Position]:
+    """In their order."""
+    return [Position(of.model, of.series, case) for case in of.series.cases]
+
+
+@SERIES.key(inside=POSITION)
+def worst(of: SeriesOfModel) -> Position | None:
+    """The position with the least load factor; null where it is not known."""
+    return None if of.series.worst is None else Position(of.model, of.series, of.series.worst)
+
+
+_KNOWN = {quantity.name: quantity for quantity in quantities.POSITIONS.quantities}
+POSITION.quantities(
+    *(_KNOWN[name] for name in ("case", "position", "point", "distance", "block", "status", "load_factor")),
+    null=("block",),
+)
+
+
+@POSITION.key("an axle", inside=AXLE)
+def axles(of: Position) -> list[Axle]:
+    """All axles, the first one first."""
+    return [Axle(of, number) for number in range(len(of.travel.blocks))]
+
+
+@AXLE.key("a coordinate", name="point", unit="length")
+def point_of_axle(of: Axle) -> FloatArray:
+    """As of the position."""
+    point: FloatArray = of.position.travel.points[of.number]
+    return point
+
+
+@AXLE.key(name="distance", unit="length")
+def distance_of_axle(of: Axle) -> float:
+    """As of the position."""
+    return float(of.position.travel.distances[of.number])
+
+
+@AXLE.key(name="block")
+def block_of_axle(of: Axle) -> str | None:
+    """As of the position."""
+    return _carrier(of.position, of.number)
+
+
+def _carrier(of: Position, axle: int) -> str | None:
+    block = int(of.travel.blocks[axle])
+    return of.model.blocks.name(block) if block >= 0 else None
+
+
+@OBJECTIVE.key(name="name")
+def objective_name(found: ForceRange) -> str:
+    """Name of the load case in the deck."""
+    return found.name
+
+
+@OBJECTIVE.key()
+def at(found: ForceRange) -> float:
+    """Load factor of its live loads."""
+    question = next(iter(found.ends.values())).load_case.question
+    assert isinstance(question, Force)  # what makes it one
+    return question.objective.at
+
+
+@OBJECTIVE.key(name="status")
+def graver_status(found: ForceRange) -> str:
+    """The graver status of both ends."""
+    return found.status.value
+
+
+@OBJECTIVE.key(inside=END)
+def least(found: ForceRange) -> CaseResult | None:
+    """An end; null where it was not solved."""
+    return found.ends.get("least")
+
+
+@OBJECTIVE.key(inside=END)
+def greatest(found: ForceRange) -> CaseResult | None:
+    """An end; null where it was not solved."""
+    return found.ends.get("greatest")
+
+
+@END.key(name="case")
+def case_of_end(case: CaseResult) -> str:
+    """Load case."""
+    return case.load_case.name
+
+
+@END.key(name="status")
+def status_of_end(case: CaseResult) -> str:
+    """Status."""
+    return case.status.value
+
+
+@END.key(unit="force")
+def value(case: CaseResult) -> float | None:
+    """The force; null where there is none, and where it has no limit."""
+    return end_value(case)
+
+
+@END.key(unit="force")
+def lower_bound(case: CaseResult) -> float | None:
+    """Proved: by a mechanism of the least force, by forces of the greatest."""
+    return answer_bounds(case)[0]
+
+
+@END.key(unit="force")
+def upper_bound(case: CaseResult) -> float | None:
+    """Proved: by forces of the least force, by a mechanism of the greatest."""
+    return answer_bounds(case)[1]
