@@ -15,8 +15,6 @@ from mbla.results.record.json_record import results_json
 from mbla.results.record.json_values import json_line
 from mbla.results.results import CaseResult, Results
 from mbla.results.series import detailed_cases, series_of
-from mbla.results.tables.formats import table_csv
-from mbla.results.tables.tables import CURVE, SERIES, tables_of
 from mbla.results.vtu.mesh_files import write_mesh_files
 
 
@@ -83,15 +81,24 @@ def write_record(results: Results, out: Files, *, every_position: bool) -> Resul
     Returns the results with the names of all files.
     """
     if series_of(results.cases):
-        out.write_text(f"{out.stem}_positions.csv", table_csv(tables_of(results, (SERIES.name,))[SERIES.name]))
+        _write_table(results, out, "positions")
     if any(case.solution.further.pushover.curve for case in results.cases):
-        out.write_text(f"{out.stem}_curve.csv", table_csv(tables_of(results, (CURVE.name,))[CURVE.name]))
+        _write_table(results, out, "curve")
     files = sorted({*out.names, *(f"{out.stem}.{suffix}" for suffix in ("lst", "h5", "json"))})
     results = replace(results, files=tuple(files))
     out.write_text(f"{out.stem}.lst", listing(results, every_position=every_position))
     out.write_bytes(f"{out.stem}.h5", write_results_hdf5(results))
     out.write_text(f"{out.stem}.json", json_line(results_json(results)) + "\n")
     return results
+
+
+def _write_table(results: Results, out: Files, name: str) -> None:
+    """Positions of travelling loads, or curves of pushovers, as CSV."""
+    from mbla.results.tables.formats import table_csv  # few decks ask for them
+    from mbla.results.tables.tables import CURVE, SERIES, tables_of
+
+    table = {"positions": SERIES, "curve": CURVE}[name].name
+    out.write_text(f"{out.stem}_{name}.csv", table_csv(tables_of(results, (table,))[table]))
 
 
 def _write_pictures(results: Results, cases: Sequence[CaseResult], out: OutputFolder) -> None:

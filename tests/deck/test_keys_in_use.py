@@ -15,7 +15,7 @@ from mbla.deck.sections.materials import BUILT_IN
 from mbla.deck.sections.placement import TransformStep
 from mbla.deck.sections.supports import Support
 from mbla.model.blocks.mesh import MeshItem
-from mbla.model.geometry import READERS
+from mbla.model.geometry.readers import READERS
 from tests.deck.keys_in_use import Key, all_keys, keys_in_use, sections_of
 from tests.decks.folder import PATHS, deck_of
 

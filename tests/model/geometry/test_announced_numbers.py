@@ -13,9 +13,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from mbla.model.geometry import read_geometry
 from mbla.model.geometry.geometry import Geometry, GeometryFileError
 from mbla.model.geometry.meshio_files import NODES, POLYGON, write_mesh
+from mbla.model.geometry.readers import read_geometry
 from mbla.model.geometry.repair import repair
 from tests.model.shapes import box, build_raw
 from tests.trust.geometry.formats import FORMATS

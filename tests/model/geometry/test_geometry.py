@@ -12,9 +12,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from mbla.model import geometry
-from mbla.model.geometry import LEAST_MEMORY, MEMORY_PER_BYTE, READERS, read_geometry
+from mbla.model.geometry import readers
 from mbla.model.geometry.geometry import Geometry, GeometryFileError, member_name, parse_json
+from mbla.model.geometry.readers import LEAST_MEMORY, MEMORY_PER_BYTE, READERS, read_geometry
 from mbla.model.geometry.repair import repair
 from mbla.model.solids.polyhedra import join_polyhedra
 from tests.model.shapes import box, build_raw, raw
@@ -35,9 +35,9 @@ def limits_while_reading(path: Path, monkeypatch: pytest.MonkeyPatch, can_limit:
         limits.append(most)
         yield
 
-    monkeypatch.setattr(geometry, "can_limit", lambda: can_limit)
-    monkeypatch.setattr(geometry, "written", lambda: 1e9)
-    monkeypatch.setattr(geometry, "limited", limited)
+    monkeypatch.setattr(readers, "can_limit", lambda: can_limit)
+    monkeypatch.setattr(readers, "written", lambda: 1e9)
+    monkeypatch.setattr(readers, "limited", limited)
     read_geometry(path)
     return limits
 
@@ -55,7 +55,7 @@ def test_a_file_that_takes_more_memory_than_it_may_is_refused(tmp_path: Path, mo
     def reader(path: Path) -> Geometry:
         raise MemoryError
 
-    monkeypatch.setitem(geometry.READERS, ".obj", reader)
+    monkeypatch.setitem(readers.READERS, ".obj", reader)
     path = tmp_path / "x.obj"
     path.write_text(TRIANGLE)
     with pytest.raises(GeometryFileError) as caught:
@@ -67,7 +67,7 @@ def test_a_file_that_takes_more_memory_than_it_may_is_refused(tmp_path: Path, mo
 
 
 def test_a_file_beyond_the_largest_size_is_refused_unread(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(geometry, "LARGEST_FILE", 2 * MIB)
+    monkeypatch.setattr(readers, "LARGEST_FILE", 2 * MIB)
     path = tmp_path / "x.obj"
     with path.open("wb") as file:
         file.truncate(2 * MIB + 1)

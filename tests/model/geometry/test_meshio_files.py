@@ -11,9 +11,9 @@ import pytest
 
 from mbla.arrays import FloatArray, IntArray
 from mbla.errors import FileError
-from mbla.model.geometry import READERS, read_geometry
 from mbla.model.geometry.geometry import Geometry, GeometryFileError
 from mbla.model.geometry.meshio_files import write_mesh
+from mbla.model.geometry.readers import READERS, read_geometry
 from mbla.model.geometry.repair import repair
 from mbla.model.solids.polyhedra import HEXAHEDRON, cuboids
 from tests.model.shapes import box, build_raw

@@ -8,8 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from mbla.model.geometry import read_geometry
 from mbla.model.geometry.geometry import GeometryFileError
+from mbla.model.geometry.readers import read_geometry
 
 POINTS = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]
 FACES = [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)]

@@ -6,8 +6,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from mbla.model.geometry import read_geometry
 from mbla.model.geometry.geometry import GeometryFileError
+from mbla.model.geometry.readers import read_geometry
 from mbla.model.geometry.repair import repair
 from mbla.model.geometry.stl import read_stl
 from tests.model.shapes import Shape, box, build_raw

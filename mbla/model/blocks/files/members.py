@@ -15,8 +15,8 @@ from mbla.deck.suggestions import unknown
 from mbla.deck.units import METRES
 from mbla.errors import Finding
 from mbla.model.blocks.generated import ItemRefused
-from mbla.model.geometry import read_geometry
 from mbla.model.geometry.geometry import LONGEST_REASON, Geometry, GeometryFileError, member_name
+from mbla.model.geometry.readers import read_geometry
 from mbla.model.geometry.sheets import NotFlatError, flat_outlines, sheets
 from mbla.model.geometry.welding import take_faces, weld
 from mbla.model.solids.measures import connected_labels
