@@ -35,9 +35,9 @@ class AppliedLoad:
         return replace(self, wrenches=factor * self.wrenches, words=words, in_g=False)
 
 
-def without_forces(words: str, *, on_masses: bool = False, in_g: bool = False) -> AppliedLoad:
-    """A load that acts on no block, or of which the forces are not known."""
-    return AppliedLoad(np.zeros(0, dtype=np.int64), np.zeros((0, 15)), words, on_masses=on_masses, in_g=in_g)
+def without_forces(words: str) -> AppliedLoad:
+    """A load that acts on no block."""
+    return AppliedLoad(np.zeros(0, dtype=np.int64), np.zeros((0, 15)), words)
 
 
 def wrenches_of(forces: FloatArray, points: FloatArray, centroids: FloatArray) -> FloatArray:

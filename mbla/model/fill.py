@@ -104,8 +104,8 @@ class Fill:
     masses : (n_blocks,) part of their added masses
     points : (n_blocks, 3) its centroid; that of the block where there is none
     words  : one of each fill, for the listing
-    bodies : by name; none in models from result files
-    parts  : of it; none in models from result files
+    bodies : by name
+    parts  : of it
     """
 
     masses: FloatArray

@@ -170,11 +170,9 @@ class Model:
     guides      : guided blocks with their admissible motions; they count as free
     mirrors     : unit normal m and offset d of the planes of symmetry that the deck gives, m·x = d: only symmetric
                   states are searched
-    interfaces  : interfaces that the deck gives by their corners; None where contacts are searched for, and in models
-                  from result files, which have the contacts themselves
+    interfaces  : interfaces that the deck gives by their corners; None where contacts are searched for
     ties        : ties, struts, rings and strips between blocks
-    bent        : bent faces that were split into triangles, in contact with the same face of another block at most; in
-                  no result file
+    bent        : bent faces that were split into triangles, in contact with the same face of another block at most
     fill        : soil on blocks, counted among their added masses; None for none
     """
 

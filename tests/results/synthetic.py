@@ -184,8 +184,8 @@ def tower_model() -> Model:
     dead, live = zeros.copy(), zeros.copy()
     dead[:, 2] = -weights
     live[:, 0] = weights
-    weight = without_forces("gravity (0, 0, -9.81) m/s2", on_masses=True)
-    push = without_forces("acceleration (1, 0, 0) g on all blocks", on_masses=True, in_g=True)
+    weight = replace(without_forces("gravity (0, 0, -9.81) m/s2"), on_masses=True)
+    push = replace(without_forces("acceleration (1, 0, 0) g on all blocks"), on_masses=True, in_g=True)
     cases = (
         LoadCase("push_x", dead, live, (weight,), (push,)),
         LoadCase("fall", dead, live, (weight,), (push,)),

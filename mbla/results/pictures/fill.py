@@ -2,40 +2,22 @@
 
 from __future__ import annotations
 
-import tempfile
-from collections.abc import Mapping
-from pathlib import Path
-
 import numpy as np
 
 from mbla.arrays import FloatArray
-from mbla.errors import DeckError, FileError
-from mbla.model.build import build_model
 from mbla.model.fill import FillBody
 from mbla.results.pictures.marks import Mark, outer_rows
 from mbla.results.pictures.page import FILL
 from mbla.results.pictures.scene import Scene
-from mbla.results.provenance import deck_of
-from mbla.results.results import Results
 
 
 def fill_marks(scene: Scene) -> list[Mark]:
-    """The fills of a model; none without fill, and where the deck in a file can no longer be built."""
+    """The fills of a model; none without fill."""
     fill = scene.model.fill
     if fill is None:
         return []
-    bodies = fill.bodies or _built_again(scene.results)
-    return [_mark(f"fill: {words}", body, scene.size) for words, body in zip(fill.words, bodies.values(), strict=False)]
-
-
-def _built_again(results: Results) -> Mapping[str, FillBody]:
-    """Of results from a file, which holds the masses of fill and not its shape."""
-    with tempfile.TemporaryDirectory() as folder:
-        try:
-            fill = build_model(deck_of(results.deck, Path(folder), expected=False)).fill
-        except (DeckError, FileError):
-            return {}
-    return {} if fill is None else fill.bodies
+    found = zip(fill.words, fill.bodies.values(), strict=True)
+    return [_mark(f"fill: {words}", body, scene.size) for words, body in found]
 
 
 def _mark(text: str, body: FillBody, size: float) -> Mark:

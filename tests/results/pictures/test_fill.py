@@ -44,7 +44,6 @@ def test_fill_reaches_from_the_blocks_to_its_top(results: Results) -> None:
 
 
 def test_of_a_result_file_the_fill_is_that_of_its_deck(results: Results, tmp_path: Path) -> None:
-
     path = tmp_path / "fill.h5"
     path.write_bytes(write_results_hdf5(results))
     back = read_results_hdf5(path)

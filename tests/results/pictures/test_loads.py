@@ -19,7 +19,7 @@ from mbla.results.results import Results
 from tests.results.pictures.rows_and_columns import row_of_blocks
 from tests.results.synthetic import G, standing_at, tower_model, tower_results
 
-GRAVITY = without_forces("gravity (0, 0, -9.81) m/s2", on_masses=True)
+GRAVITY = replace(without_forces("gravity (0, 0, -9.81) m/s2"), on_masses=True)
 FORCE = without_forces("force")
 
 
@@ -98,7 +98,7 @@ def test_accelerations_that_differ_from_block_to_block_are_forces() -> None:
     """As of a tilt about different points: no two blocks have the same force for their mass."""
     loads = np.zeros((3, 6))
     loads[1:, 0] = tower_model().blocks.masses[1:] * [1.0, 2.0]
-    (mark,) = marks(loads, without_forces("acceleration by height", on_masses=True))
+    (mark,) = marks(loads, replace(without_forces("acceleration by height"), on_masses=True))
     assert mark.bodies[::2, 0].tolist() == [1, 2]
 
 
