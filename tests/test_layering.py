@@ -14,7 +14,7 @@ import mbla
 
 PACKAGE = Path(mbla.__file__).parent
 STAGES = ("deck", "questions", "model", "contacts", "assembly", "program", "solution", "results", "codes", "sweeps")
-WHOLE_LINE = ("api", "run", "verify")
+WHOLE_LINE = ("api", "check", "run", "verify")
 """modules beside the stages that call all of them: only what runs decks again and again stands to their right"""
 SHARED = ("arrays", "errors", "process")
 DOORS = {

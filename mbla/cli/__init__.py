@@ -13,7 +13,26 @@ from pathlib import Path
 from typing import NoReturn
 
 from mbla import __version__
-from mbla.cli import assess, decks, export, reference, show, strengthen, study_commands, sweep_commands
+from mbla.cli import (
+    assess,
+    check,
+    diff,
+    explain,
+    export,
+    find,
+    interact,
+    new,
+    plot,
+    report,
+    run,
+    schema,
+    show,
+    strengthen,
+    sweep,
+    sweep_plot,
+    tradeoff,
+    verify,
+)
 from mbla.cli.terminal import drop_output, prepare_streams
 from mbla.cli.terminal import failed as failed
 from mbla.errors import FileError, UsageError
@@ -21,24 +40,24 @@ from mbla.process.limits import limit_threads, refuse_too_low_limits, without_pl
 from mbla.results.failures import ENDINGS
 
 COMMANDS = (
-    decks.add_run,
-    decks.add_check,
+    run.add_run,
+    check.add_check,
     show.add_show,
-    show.add_verify,
+    verify.add_verify,
     assess.add_assess,
-    export.add_plot,
-    export.add_report,
+    plot.add_plot,
+    report.add_report,
     export.add_export,
-    show.add_diff,
-    sweep_commands.add_sweep,
-    export.add_sweep_plot,
-    study_commands.add_interact,
-    study_commands.add_tradeoff,
-    study_commands.add_find,
+    diff.add_diff,
+    sweep.add_sweep,
+    sweep_plot.add_sweep_plot,
+    interact.add_interact,
+    tradeoff.add_tradeoff,
+    find.add_find,
     strengthen.add_strengthen,
-    reference.add_explain,
-    reference.add_schema,
-    reference.add_new,
+    explain.add_explain,
+    schema.add_schema,
+    new.add_new,
 )
 """What adds each command, in the order of the help."""
 

@@ -1,68 +1,49 @@
-"""``mbla check``: read, build, find contacts, say what the model is and what solving it needs; solve nothing."""
+"""``mbla check``."""
 
 from __future__ import annotations
 
+import argparse
+import sys
 import time
-from dataclasses import asdict
+from pathlib import Path
+from typing import Any
 
-import numpy as np
-
-from mbla.assembly import Assembly, build_assembly
-from mbla.deck import Deck
-from mbla.model import build_model
-from mbla.model.model import LoadCase, select_cases
-from mbla.process.run_options import RunOptions
-from mbla.program.build import build_program
-from mbla.program.kinematic import kinematic_form
-from mbla.results.files import OutputFolder
-from mbla.results.provenance import CaseNeeds, results_before
-from mbla.results.results import Results
-from mbla.solution.cone_solvers.choice import interior_point_method
-from mbla.solution.settings import settings_for, solver_settings
-
-Needs = dict[str, CaseNeeds]
-"""By the name of the load case."""
+from mbla.cli.given_decks import each_deck, read_given_deck, run_options
+from mbla.cli.options import add_deck_options
+from mbla.process.collector import loading
 
 
-def check(deck: Deck, options: RunOptions, vtu: bool, started: float) -> tuple[Results, Needs]:
-    """Results without cases, and what solving each load case needs.
-
-    vtu     : also write STEM_check_blocks.vtu and STEM_check_interfaces.vtu into the output folder
-    started : when reading began, by ``time.perf_counter``
-
-    Raises
-    ------
-    DeckError, FileError
-        as ``run`` does
-    """
-    model = build_model(deck)
-    read = time.perf_counter()
-    assembly = build_assembly(deck, model)
-    settings, seconds = solver_settings(deck.analysis), {"read": read - started, "contacts": time.perf_counter() - read}
-    results = results_before(deck, assembly, settings, seconds)
-    if vtu:
-        from mbla.results.vtu.mesh_files import write_model_vtu
-
-        with OutputFolder(options.folder_for(deck.path), f"{deck.path.stem}_check", options.force) as out:
-            write_model_vtu(results, out)
-    return results, {case.name: needs_of(deck, assembly, case) for case in select_cases(model, options.cases)}
+def add_check(commands: Any) -> None:
+    """``mbla check``."""
+    command = commands.add_parser("check", help="read, build, find contacts, say what the model is; solve nothing")
+    command.set_defaults(action=check)
+    command.add_argument("decks", nargs="+", type=Path, metavar="DECK")
+    add_deck_options(command)
+    command.add_argument("--vtu", action="store_true", help="write blocks and contacts for ParaView")
 
 
-def needs_of(deck: Deck, assembly: Assembly, load_case: LoadCase) -> CaseNeeds:
-    """What of the model reaches the solver, the size of its first cone programs, and who solves them."""
-    analysis = settings_for(load_case, solver_settings(deck.analysis)).analysis
-    built = build_program(assembly, load_case, analysis)
-    reduced = built.reduced
-    unknowns = sum(len(part.with_own_motions.dead_load) for part in reduced.parts)
-    programs = [kinematic_form(part, part.limits).cone_program for part in reduced.parts if np.any(part.live_load)]
-    further = [size for program in programs for size in program.further_cones]
-    counts = asdict(reduced.size) | {
-        "unknown_velocities": unknowns,
-        "cones": sum(program.n_cones for program in programs) + sum(size > 1 for size in further),
-        "half_lines": sum(program.n_half_lines for program in programs) + further.count(1),
-        "matrix_entries": sum(int(program.matrix.nnz) for program in programs),
-        "solver": ", ".join(
-            dict.fromkeys(interior_point_method(program, deck.analysis.solver) for program in programs)
-        ),
-    }
-    return CaseNeeds(counts, reduced.steps)
+def check(options: argparse.Namespace) -> int:
+    """Say what decks are and what solving them needs."""
+    chosen = run_options(options)
+
+    def one(deck: Path) -> int:
+        content, took = read_given_deck(deck, chosen)
+        with loading():
+            from mbla.check import check as check_deck
+
+        results, needs = check_deck(content, chosen, options.vtu, time.perf_counter() - took)
+        if options.json:
+            from mbla.results.record.check_record import check_json
+            from mbla.results.record.json_values import json_line
+
+            print(json_line(check_json(results, needs)), flush=True)
+        else:
+            from mbla.results.listing.model_words import check_listing
+
+            print(check_listing(results, needs), end="", flush=True)
+        if options.vtu:
+            files = chosen.folder_for(deck) / f"{deck.stem}_check_*.vtu"
+            print(f"  files: {files}", file=sys.stderr if options.json else sys.stdout, flush=True)
+        return 0
+
+    return each_deck(options, one, None)

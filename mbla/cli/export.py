@@ -1,141 +1,17 @@
-"""The commands that make something of results: plot, sweep-plot, report, export.
-
-Everything of a command is imported when it is called, so that the program starts at once.
-"""
+"""``mbla export``."""
 
 from __future__ import annotations
 
 import argparse
-import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from mbla.cli.options import add_page_options, add_result_and_output, names, place
+from mbla.cli.options import names, place
 from mbla.errors import UsageError
 from mbla.process.collector import loading
 
 if TYPE_CHECKING:
     from mbla.results.results import Results
-
-
-def add_plot(commands: Any) -> None:
-    """``mbla plot``."""
-    command = commands.add_parser(
-        "plot",
-        help="pictures of model, mechanism and forces (extra mbla[pictures])",
-        description="Pictures of model, mechanism and forces. Earlier pictures of the same names are replaced.",
-    )
-    command.set_defaults(action=plot)
-    add_result_and_output(command, "PNG, SVG or PDF file, by its name, of one picture; or a folder")
-    command.add_argument(
-        "--kind",
-        metavar="KIND",
-        help="model, mechanism, forces, history, curve (of a pushover), several with commas, or all "
-        "(default: the first three, and the history of a load that travels; the mechanism where -o names a file)",
-    )
-    command.add_argument("--case", metavar="NAME", help="only this load case")
-    command.add_argument(
-        "--animate",
-        choices=["gif", "mp4"],
-        help="moving pictures of the mechanisms in the place of pictures, with --kind curve of the steps of a pushover",
-    )
-    command.add_argument(
-        "--view",
-        default="auto",
-        metavar="VIEW",
-        help="front, back, left, right, top, iso, below, auto, or AZIMUTH,ELEVATION in degrees, as --view=-60,25",
-    )
-    command.add_argument(
-        "--scale", default="auto", metavar="X", help="factor on the displacements of the default, auto"
-    )
-    add_page_options(command)
-
-
-def plot(options: argparse.Namespace) -> int:
-    """Draw pictures or films; their paths are printed."""
-    with loading():
-        from mbla.results.hdf5.result_file import read_results_hdf5
-        from mbla.results.pictures.options import picture_options
-        from mbla.results.pictures.plot import plot_results
-
-    chosen = picture_options(options)
-    results = read_results_hdf5(options.result)
-    target = options.output or options.result.parent
-    for path in plot_results(results, target, options.result.stem, chosen):
-        print(path)
-    return 0
-
-
-def add_sweep_plot(commands: Any) -> None:
-    """``mbla sweep-plot``."""
-    command = commands.add_parser(
-        "sweep-plot",
-        help="pictures of a sweep: curves, maps, distributions (extra mbla[pictures])",
-        description="Pictures of the table of a sweep, sweep_KIND_RESULT.png and so on; those that suit the table "
-        "unless kinds are named. Points without a verified value are marked as such. Earlier pictures of the same "
-        "names are replaced.",
-    )
-    command.set_defaults(action=sweep_plot)
-    command.add_argument("sweep", type=Path, metavar="SWEEP.out|sweep.csv", help="folder of the sweep, or its table")
-    command.add_argument(
-        "-o",
-        "--output",
-        type=place,
-        metavar="FILE|DIR",
-        help="PNG, SVG or PDF file, by its name, of one picture: the first that suits the table unless --kind "
-        "says which; or a folder (default: that of the sweep)",
-    )
-    command.add_argument(
-        "--kind",
-        metavar="KIND",
-        help="curve, map, distribution, several with commas, or all that fit the table",
-    )
-    command.add_argument(
-        "--result", metavar="NAME", help="column, or key path for all load cases (default: load_factor)"
-    )
-    command.add_argument(
-        "--by",
-        metavar="PARAMETER",
-        help="parameter along the axis of curves and maps, or of the curves of a distribution",
-    )
-    add_page_options(command)
-
-
-def sweep_plot(options: argparse.Namespace) -> int:
-    """Draw pictures of a sweep; their paths are printed."""
-    with loading():
-        from mbla.sweeps.pictures.plot import plot_sweep_files
-
-    for path in plot_sweep_files(options.sweep, options):
-        print(path)
-    return 0
-
-
-def add_report(commands: Any) -> None:
-    """``mbla report``."""
-    command = commands.add_parser(
-        "report",
-        help="one self-contained HTML file of a result (extra mbla[report])",
-        description="One self-contained HTML file of a result. An earlier report of that name is replaced.",
-    )
-    command.set_defaults(action=report)
-    add_result_and_output(command, "HTML file, or a folder for STEM.html")
-    command.add_argument("--case", metavar="NAME", help="only this load case")
-    command.add_argument("--no-3d", action="store_true", help="leave out the views that can be turned, 5 MB less")
-
-
-def report(options: argparse.Namespace) -> int:
-    """Write the HTML file; its path is printed, remarks on what it lacks go to standard error."""
-    with loading():
-        from mbla.results.hdf5.result_file import read_results_hdf5
-        from mbla.results.report.report import report_path, write_report
-
-    results = read_results_hdf5(options.result)
-    target = report_path(options.output, options.result)
-    for remark in write_report(results, target, options.case, view=not options.no_3d):
-        print(f"mbla: {remark}", file=sys.stderr)
-    print(target)
-    return 0
 
 
 def add_export(commands: Any) -> None:

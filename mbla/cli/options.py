@@ -125,3 +125,14 @@ def add_page_options(command: Any) -> None:
     command.add_argument(
         "--format", choices=["png", "svg", "pdf"], default="png", help="format of pictures in a folder (default png)"
     )
+
+
+def result_command(
+    commands: Any, name: str, action: Callable[[argparse.Namespace], int], text: str
+) -> argparse.ArgumentParser:
+    """A command that says what a result file holds."""
+    command: argparse.ArgumentParser = commands.add_parser(name, help=text)
+    command.set_defaults(action=action, about={"result": "result"})
+    command.add_argument("result", type=Path, metavar="RESULT.h5")
+    command.add_argument("--json", action="store_true", help="one JSON object on standard output")
+    return command

@@ -1,44 +1,17 @@
-"""The commands that say what result files hold: show, verify, diff.
-
-Everything of a command is imported when it is called, so that the program starts at once.
-"""
+"""``mbla show``."""
 
 from __future__ import annotations
 
 import argparse
-from collections.abc import Callable
-from pathlib import Path
 from typing import Any
 
-from mbla.cli.options import relative
+from mbla.cli.options import result_command
 from mbla.process.collector import loading
 
 
 def add_show(commands: Any) -> None:
     """``mbla show``."""
-    _add(commands, "show", show, "print the listing of a result file")
-
-
-def add_verify(commands: Any) -> None:
-    """``mbla verify``."""
-    command = _add(
-        commands, "verify", verify, "recompute residuals and bounds from a result file alone, with no solver"
-    )
-    command.add_argument(
-        "--again",
-        action="store_true",
-        help="follow each path of elastic joints anew from the deck in the file, by other steps and with joints of "
-        "another stiffness in shear, and each pushover: whether the history in the file is that of the loading (needs "
-        "the solver, and as long as the run)",
-    )
-
-
-def _add(commands: Any, name: str, action: Callable[[argparse.Namespace], int], text: str) -> argparse.ArgumentParser:
-    command: argparse.ArgumentParser = commands.add_parser(name, help=text)
-    command.set_defaults(action=action, about={"result": "result"})
-    command.add_argument("result", type=Path, metavar="RESULT.h5")
-    command.add_argument("--json", action="store_true", help="one JSON object on standard output")
-    return command
+    result_command(commands, "show", show, "print the listing of a result file")
 
 
 def show(options: argparse.Namespace) -> int:
@@ -52,61 +25,3 @@ def show(options: argparse.Namespace) -> int:
     results = read_results_hdf5(options.result)
     print(json_line(results_json(results)) + "\n" if options.json else listing(results), end="")
     return 0
-
-
-def verify(options: argparse.Namespace) -> int:
-    """Recompute what the file claims; the exit status says whether it was confirmed."""
-    with loading():
-        from mbla.results.listing.listing import verification_lines
-        from mbla.results.record.json_record import verification_json
-        from mbla.results.record.json_values import json_line
-        from mbla.verify import verify_file
-
-    results, agreed = verify_file(options.result, anew=options.again)
-    if options.json:
-        print(json_line(verification_json(results, agreed)))
-    else:
-        print("\n".join(verification_lines(results, agreed)))
-    return results.exit_code
-
-
-def add_diff(commands: Any) -> None:
-    """``mbla diff``."""
-    command = commands.add_parser(
-        "diff",
-        help="what differs between two result files",
-        description="Compare deck texts, figures and mechanisms of two result files; figures of B are brought into the "
-        "units of A.",
-        epilog="Exit status 0 whatever differs; with --fail 4 where a load case differs in its status or its answer "
-        "(load factor, angle or reaction), or is in one file only.",
-    )
-    command.set_defaults(action=diff, about={"first": "first", "second": "second"})
-    command.add_argument("first", type=Path, metavar="A.h5")
-    command.add_argument("second", type=Path, metavar="B.h5")
-    command.add_argument(
-        "--tolerance",
-        type=relative,
-        metavar="T",
-        help="relative difference up to which answers are the same (default: the sum of what both are good to, the "
-        "gap of associative factors and the largest residual of others; at least 1e-6)",
-    )
-    command.add_argument("--fail", action="store_true", help="exit status 4 where a status or an answer differs")
-    command.add_argument("--json", action="store_true", help="one JSON object on standard output")
-
-
-def diff(options: argparse.Namespace) -> int:
-    """Print what differs; status 4 only where it is asked for."""
-    with loading():
-        from mbla.results.diff.comparison import compare_results, comparison_json
-        from mbla.results.diff.words import comparison_text
-        from mbla.results.hdf5.result_file import read_results_hdf5
-        from mbla.results.record.json_values import json_line
-
-    names = str(options.first), str(options.second)
-    results = read_results_hdf5(options.first), read_results_hdf5(options.second)
-    comparison = compare_results(*results, options.tolerance)
-    if options.json:
-        print(json_line(comparison_json(comparison, names)))
-    else:
-        print(comparison_text(comparison, names), end="")
-    return 4 if options.fail and comparison.differing else 0

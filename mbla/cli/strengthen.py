@@ -6,7 +6,7 @@ import argparse
 from pathlib import Path
 from typing import Any
 
-from mbla.cli.decks import read_given_deck, refuse_unfit_name, run_options
+from mbla.cli.given_decks import read_given_deck, refuse_unfit_name, run_options
 from mbla.cli.options import add_analysis_options, add_deck_options
 from mbla.process.collector import loading
 

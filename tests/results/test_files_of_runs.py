@@ -13,7 +13,7 @@ import h5py
 import numpy as np
 import pytest
 
-from mbla.cli.check import check
+from mbla.check import check
 from mbla.deck import read_deck
 from mbla.results.hdf5.layout import text_of
 from mbla.results.hdf5.result_file import read_results_hdf5

@@ -164,7 +164,7 @@ def test_a_million_triangles(tmp_path: Path) -> None:
     """One block of a million triangles is the cuboid that it is; without one of them it is refused."""
     triangles = cube(SIDES)
     assert np.linalg.det(triangles).sum() / 6 == pytest.approx(1.0)
-    with Commands(("mbla.cli.check",), {"RLIMIT_CPU": HUGE_SECONDS}) as running:
+    with Commands(("mbla.check",), {"RLIMIT_CPU": HUGE_SECONDS}) as running:
         whole = running.run("check", "--json", write(tmp_path / "whole", triangles))
         hole = running.run("check", "--json", write(tmp_path / "open", triangles[:-1]))
     assert whole.status == 0, whole.err

@@ -22,13 +22,13 @@ import pytest
 from mbla import api
 from mbla.assembly import build_assembly
 from mbla.cli import main
-from mbla.cli.decks import refuse_unfit_name
+from mbla.cli.given_decks import refuse_unfit_name
 from mbla.deck import read_deck, validation
 from mbla.deck.content import DeckContent
 from mbla.deck.text import reader, sources
 from mbla.deck.text.include import confined
 from mbla.errors import DeckError, Fault, Place
-from mbla.model import build_model, geometry
+from mbla.model import build_model
 from mbla.program.kinematic import ConeProgram, kinematic_form
 from mbla.results import disk as journal_lock
 from mbla.results.hdf5.result_file import write_results_hdf5
@@ -122,7 +122,7 @@ def list_beyond_all_length(folder: Path, patch: Patch) -> object:
 
 @brings("geometry-too-large")
 def geometry_beyond_all_size(folder: Path, patch: Patch) -> object:
-    patch.setattr(geometry, "LARGEST_FILE", 1024**2)
+    patch.setattr(readers, "LARGEST_FILE", 1024**2)
     (folder / "wall.obj").write_bytes(b"#" * (1024**2 + 1))
     named = changed("box: {group: block, material: stone, min: [0, 0, 0], max: [1, 1, 1]}", NAMED)
     return build_model(read_deck(write(folder, named)))
@@ -148,7 +148,7 @@ def memory_that_is_used_up(folder: Path, patch: Patch) -> object:
 
 @brings("internal-error")
 def defect_of_the_program(folder: Path, patch: Patch) -> object:
-    patch.setattr("mbla.cli.decks.refuse_unfit_name", raising(ZeroDivisionError("first second")))
+    patch.setattr("mbla.cli.given_decks.refuse_unfit_name", raising(ZeroDivisionError("first second")))
     return command("run", "deck.yaml")
 
 

@@ -1,32 +1,18 @@
-"""The commands on parameter sweeps: call what does the work, print, return the exit status; nothing else.
-
-They print as :mod:`mbla.cli` does, which calls them and says what went wrong. Everything of a command is imported when
-it is called, so that the program starts at once.
-"""
+"""``mbla sweep``."""
 
 from __future__ import annotations
 
 import argparse
-import sys
-import time
-from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from mbla.cli.decks import refuse_unfit_name
+from mbla.cli.given_decks import refuse_unfit_name
 from mbla.cli.options import add_deck_options, shard, workers
-from mbla.cli.terminal import clear_line, rewrite_line, say
+from mbla.cli.sweep_progress import print_finished, solved
 from mbla.process.collector import loading
 
 if TYPE_CHECKING:
-    from mbla.sweeps.command import Finished, SweepOptions
-    from mbla.sweeps.plan import PointOutcome, Task
-    from mbla.sweeps.words import Progress
-
-NAMED_FAILURES = 20
-"""failed points that have a line of their own while the sweep continues; the journal has the reasons of all"""
-BETWEEN_LINES = 10.0
-"""seconds between lines of progress where there is no terminal"""
+    from mbla.sweeps.command import SweepOptions
 
 
 def add_sweep(commands: Any) -> None:
@@ -101,32 +87,6 @@ def sweep(options: argparse.Namespace) -> int:
     return finished.exit_code
 
 
-def solved(options: argparse.Namespace, solve: Callable[[Any], Finished]) -> Finished:
-    """What a sweep ends with, its progress reported meanwhile."""
-    report = None if options.quiet else _Reporter()
-    try:
-        return solve(report)
-    finally:
-        if report is not None:
-            report.end()
-
-
-def print_finished(options: argparse.Namespace, finished: Finished, lines: Sequence[str]) -> None:
-    """The JSON object where it is asked for, what was found in words, and where the files are."""
-    with loading():
-        from mbla.results.record.json_values import json_line
-
-    if finished.remark:
-        say(f"mbla: {finished.remark}", 0)
-    if options.json:
-        print(json_line(finished.record), flush=True)
-    if not options.quiet:
-        folder, here = finished.folder, Path.cwd()
-        shown = folder.relative_to(here) if folder.is_relative_to(here) else folder
-        text = "\n".join([*lines, f"  files: {shown}/"])
-        print(text, file=sys.stderr if options.json else sys.stdout, flush=True)
-
-
 def _sweep_options(options: argparse.Namespace) -> SweepOptions:
     with loading():
         from mbla.sweeps.command import SweepOptions
@@ -146,29 +106,3 @@ def _sweep_options(options: argparse.Namespace) -> SweepOptions:
         parquet=options.parquet,
         hdf5=options.hdf5,
     )
-
-
-class _Reporter:
-    """Progress on standard error: a line that rewrites itself on a terminal, a line now and then elsewhere."""
-
-    def __init__(self) -> None:
-        self._terminal = sys.stderr.isatty()
-        self._last = time.monotonic()
-
-    def __call__(self, progress: Progress, task: Task | None, outcome: PointOutcome | None) -> None:
-        failed = outcome is not None and outcome.state == "failed"
-        if task is not None and outcome is not None and failed and progress.failed <= NAMED_FAILURES:
-            self.end()
-            say(f"mbla: point {task.number} failed: {outcome.reason}", 0)
-        if self._terminal:
-            rewrite_line(progress.words())
-        elif outcome is None:
-            known = f", {progress.earlier} are in the journal" if progress.earlier else ""
-            say(f"mbla: {progress.total} points to solve{known}", 0)
-        elif time.monotonic() - self._last >= BETWEEN_LINES:
-            self._last = time.monotonic()
-            say(f"mbla: {progress.words()}", 0)
-
-    def end(self) -> None:
-        """What is said next has a line of its own."""
-        clear_line(self._terminal or None)

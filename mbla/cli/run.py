@@ -1,28 +1,26 @@
-"""The commands on decks, ``mbla run`` and ``mbla check``, and what all commands that take a deck share."""
+"""``mbla run``."""
 
 from __future__ import annotations
 
 import argparse
 import sys
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from mbla.cli.given_decks import each_deck, read_given_deck, run_options
 from mbla.cli.options import add_analysis_options, add_deck_options, seconds, threads
 from mbla.cli.terminal import clear_line, failed, rewrite_line, say
-from mbla.errors import FileError, UsageError
+from mbla.errors import UsageError
 from mbla.process.collector import loading
 from mbla.process.run_options import RunOptions
-from mbla.results.failures import ENDINGS, StoppedRun, failure_record
+from mbla.results.failures import StoppedRun, failure_record
 
 if TYPE_CHECKING:
     from mbla.deck import Deck
     from mbla.results.results import Results
     from mbla.run import Progress
-
-WORST_FIRST = (1, 6, 7, 3, 4, 5)
-FIRST_OF_SIGNALS = 128
 
 
 def add_run(commands: Any) -> None:
@@ -71,7 +69,7 @@ def run(options: argparse.Namespace) -> int:
         return results.exit_code
 
     _refuse_shared_folder(options.decks, chosen)
-    return _each_deck(options, one, progress)
+    return each_deck(options, one, progress)
 
 
 def _tell(options: argparse.Namespace, deck: Deck, results: Results, failure: dict[str, Any], *files: str) -> None:
@@ -95,87 +93,6 @@ def _tell(options: argparse.Namespace, deck: Deck, results: Results, failure: di
         say(f"mbla: threads: {results.settings['threads']}", 0)
 
 
-def add_check(commands: Any) -> None:
-    """``mbla check``."""
-    command = commands.add_parser("check", help="read, build, find contacts, say what the model is; solve nothing")
-    command.set_defaults(action=check)
-    command.add_argument("decks", nargs="+", type=Path, metavar="DECK")
-    add_deck_options(command)
-    command.add_argument("--vtu", action="store_true", help="write blocks and contacts for ParaView")
-
-
-def check(options: argparse.Namespace) -> int:
-    """Say what decks are and what solving them needs."""
-    chosen = run_options(options)
-
-    def one(deck: Path) -> int:
-        content, took = read_given_deck(deck, chosen)
-        with loading():
-            from mbla.cli.check import check as check_deck
-
-        results, needs = check_deck(content, chosen, options.vtu, time.perf_counter() - took)
-        if options.json:
-            from mbla.results.record.check_record import check_json
-            from mbla.results.record.json_values import json_line
-
-            print(json_line(check_json(results, needs)), flush=True)
-        else:
-            from mbla.results.listing.model_words import check_listing
-
-            print(check_listing(results, needs), end="", flush=True)
-        if options.vtu:
-            files = chosen.folder_for(deck) / f"{deck.stem}_check_*.vtu"
-            print(f"  files: {files}", file=sys.stderr if options.json else sys.stdout, flush=True)
-        return 0
-
-    return _each_deck(options, one, None)
-
-
-# --- what commands on a deck share ----------------------------------------------------------------------------------
-
-
-def read_given_deck(path: Path, options: RunOptions) -> tuple[Deck, float]:
-    """The deck, and the seconds it took; a faulty one is reported before anything heavy is imported."""
-    with loading():
-        from mbla.deck import read_deck
-
-    started = time.perf_counter()
-    return read_deck(path, options.overrides), time.perf_counter() - started
-
-
-def run_options(options: argparse.Namespace, *, override: bool = True) -> RunOptions:
-    """Options of a run; those that stand for values of the deck become overrides unless the command means others."""
-    overrides = list(options.set)
-    for name in ("accuracy", "flow_rule", "time_limit") if override else ():
-        value = getattr(options, name, None)
-        if value is not None:
-            overrides.append(f"analysis.{name}={value}")
-    return RunOptions(
-        folder=options.output,
-        overrides=tuple(overrides),
-        cases=_cases(options),
-        force=options.force,
-        threads=getattr(options, "threads", 1),
-        expected=getattr(options, "expected", False),
-    )
-
-
-def _cases(options: argparse.Namespace) -> tuple[str, ...]:
-    """Names of ``--case``, which some commands take once."""
-    given = getattr(options, "case", None) or ()
-    return (given,) if isinstance(given, str) else tuple(given)
-
-
-def refuse_unfit_name(deck: Path, what: str = "deck") -> None:
-    """Raises FileError for a name that no result file can have, or that no text can hold."""
-    if not deck.name or deck.is_dir():
-        raise FileError("folder-given", f"{deck}: is a folder, not a {what}")
-    try:
-        str(deck.absolute()).encode("utf-8")
-    except UnicodeEncodeError:
-        raise FileError("path-not-utf-8", f"{deck}: the path is not UTF-8, results cannot name it; rename it") from None
-
-
 def _refuse_shared_folder(decks: Sequence[Path], options: RunOptions) -> None:
     """Two decks of one name would write the same files."""
     targets = [(options.folder_for(deck).resolve(), deck.stem) for deck in decks if deck.name]
@@ -184,23 +101,6 @@ def _refuse_shared_folder(decks: Sequence[Path], options: RunOptions) -> None:
             "same-result-files",
             "two of the decks would write the same result files: give them different names or folders",
         )
-
-
-def _each_deck(options: argparse.Namespace, one: Callable[[Path], int], progress: Progress | None) -> int:
-    """Run one deck after the other; a deck that fails does not stop the next, a signal does."""
-    codes = []
-    for deck in options.decks:
-        try:
-            refuse_unfit_name(deck)
-            codes.append(one(deck))
-        except BrokenPipeError:
-            raise
-        except ENDINGS as error:
-            clear_line(progress)
-            codes.append(failed(error, {"deck": deck}, options.json))
-        if codes[-1] >= FIRST_OF_SIGNALS:
-            return codes[-1]
-    return next((code for code in WORST_FIRST if code in codes), codes[0] if len(set(codes)) == 1 else max(codes))
 
 
 def _progress() -> Progress | None:

@@ -1,0 +1,67 @@
+"""``mbla find``."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+from typing import Any
+
+from mbla.cli.given_decks import read_given_deck, refuse_unfit_name, run_options
+from mbla.cli.options import add_analysis_options, points, relative_above_zero, target
+from mbla.process.collector import loading
+
+
+def add_find(commands: Any) -> None:
+    """``mbla find``."""
+    command = commands.add_parser(
+        "find",
+        help="the value of a parameter at which a load factor is a target, or the structure just stands",
+        description="Look for the value of a number of the deck at which a load factor is a target, or at which the "
+        "dead load is just carried, between two bounds: by slopes of the associative load factor, which cost no "
+        "further solve, so that 5 to 8 solves do. The question stands in the section find of the deck; options go "
+        "before it. Values that meet the target over a stretch are told from end to end. Prints every value that was "
+        "looked at; writes no files.",
+        epilog="Exit status 0: found and verified; 4: the last answer is not verified, is a jump of the load factor or "
+        "stands only by self-stress, or nothing was found and of some steps of --scan nothing is known; 5: no value "
+        "between the bounds, as far as the steps show.",
+    )
+    command.set_defaults(action=find, about={"deck": "deck"}, output=None, force=False)
+    command.add_argument("deck", type=Path, metavar="DECK")
+    command.add_argument("--parameter", metavar="KEY.PATH", help="key path of a real number in the deck, as for --set")
+    command.add_argument(
+        "--target", type=target, metavar="WHAT", help="load_factor=VALUE, least_load_factor=VALUE, or stands"
+    )
+    command.add_argument(
+        "--bounds", nargs=2, type=float, metavar=("LOW", "HIGH"), help="least and greatest value, in the deck's units"
+    )
+    command.add_argument("--case", metavar="NAME", help="the load case; needed if there are several")
+    command.add_argument(
+        "--scan", type=points, metavar="N", help="equal steps between the bounds that are solved first"
+    )
+    command.add_argument(
+        "--tolerance",
+        type=relative_above_zero,
+        metavar="T",
+        help="error of the value, over the larger bound (default 1e-6)",
+    )
+    command.add_argument(
+        "--set", action="append", default=[], metavar="KEY.PATH=VALUE", help="change a value of the deck (repeatable)"
+    )
+    add_analysis_options(command)
+    command.add_argument("--json", action="store_true", help="one JSON object on standard output, nothing else")
+    command.add_argument("-q", "--quiet", action="store_true", help="say nothing but errors")
+
+
+def find(options: argparse.Namespace) -> int:
+    """Look for values; table and sentences go to standard output, with ``--json`` the object alone."""
+    refuse_unfit_name(options.deck)
+    content, _ = read_given_deck(options.deck, run_options(options))
+    with loading():
+        from mbla.results.record.json_values import json_line
+        from mbla.sweeps.find.study import find as look
+    found = look(content, options)
+    if options.json:
+        print(json_line(found.record), flush=True)
+    elif not options.quiet:
+        print("\n".join(found.lines), flush=True)
+    return found.exit_code

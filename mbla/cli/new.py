@@ -1,0 +1,34 @@
+"""``mbla new``."""
+
+from __future__ import annotations
+
+import argparse
+import shlex
+from typing import Any
+
+from mbla.cli.starters import KINDS
+from mbla.process.collector import loading
+
+
+def add_new(commands: Any) -> None:
+    """``mbla new``."""
+    kinds = "; ".join(f"{kind}: {words}" for kind, words in KINDS.items())
+    command = commands.add_parser(
+        "new",
+        help="write a commented starter deck",
+        description=f"Write a commented deck to begin with, which runs as it stands. {kinds}.",
+    )
+    command.set_defaults(action=new)
+    command.add_argument("name", metavar="NAME")
+    command.add_argument("--kind", choices=tuple(KINDS), default="wall", help="kind of structure (default wall)")
+    command.add_argument("--force", action="store_true", help="replace an existing file")
+
+
+def new(options: argparse.Namespace) -> int:
+    """Write it; its path is printed."""
+    with loading():
+        from mbla.cli.starter import write_starter
+
+    path = write_starter(options.name, kind=options.kind, replace=options.force)
+    print(f"{path} written; run it with: mbla run {shlex.quote(str(path))}")
+    return 0
