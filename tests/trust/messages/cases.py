@@ -29,6 +29,7 @@ from mbla.deck.text import reader, sources
 from mbla.deck.text.include import confined
 from mbla.errors import DeckError, Fault, Place
 from mbla.model import build_model
+from mbla.model.geometry import readers
 from mbla.program.kinematic import ConeProgram, kinematic_form
 from mbla.results import disk as journal_lock
 from mbla.results.hdf5.result_file import write_results_hdf5
