@@ -64,7 +64,7 @@ def verify_file(path: Path, *, anew: bool = False) -> tuple[Results, tuple[str, 
 
     Raises FileError as ``read_results_hdf5`` does.
     """
-    results = read_results_hdf5(path)
+    results = read_results_hdf5(path, to_verify=True)
     deck, of_model = rebuilt(results, read_asked(path, [case.name for case in results.model.load_cases]))
     disagreements, named = of_model, {text.split(" ", 1)[0] for text in of_model}
     again = recomputed(results, deck)

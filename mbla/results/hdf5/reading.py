@@ -7,6 +7,8 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from mbla.assembly.assembly import Assembly
 from mbla.errors import FileError
 from mbla.results.hdf5.content import ASKED, FOUND
@@ -63,8 +65,15 @@ def _read_attributes(file: h5py.File, path: Path) -> dict[str, str | int]:
     }
 
 
-def results_of(file: h5py.File, path: Path) -> Results:
-    """Results of an open file: model and contacts from the deck in it, all else from its arrays."""
+SAME_PLACE = 1e-6
+"""distance of centroids and contact points, over the farthest from the origin, up to which they are one"""
+
+
+def results_of(file: h5py.File, path: Path, *, to_verify: bool = False) -> Results:
+    """Results of an open file: model and contacts from the deck in it, all else from its arrays.
+
+    to_verify : centroids and contact points may be others than those of the deck: a verification says where they are
+    """
     attributes, file_bytes = _read_attributes(file, path), path.stat().st_size
     sizes: dict[str, int] = {"axis": 3, "direction": 3, "component": 6, "pair": 2, "unit": 3}
     run = _read_content(file, file_bytes, [(each.path, each) for each in OF_RUN], sizes)
@@ -75,10 +84,23 @@ def results_of(file: h5py.File, path: Path) -> Results:
         if len(file[name]) != sizes[name]:
             words = f"its arrays are not of what its deck gives: {len(file[name])} along {name}, not {sizes[name]}"
             raise FileError("damaged-result-file", f"{path}: {words}")
+    if not to_verify:
+        _refuse_other_geometry(file, path, assembly)
     cases = [case.name for case in assembly.model.load_cases]
     loads = _read_content(file, file_bytes, placed(LOADS_FOUND, cases), sizes)
     found = _read_content(file, file_bytes, placed(FOUND, cases), sizes)
     return results_from(run | found, attributes, record, with_loads_found(assembly, loads))
+
+
+def _refuse_other_geometry(file: h5py.File, path: Path, assembly: Assembly) -> None:
+    """FileError where blocks or contact points of the deck are not those that the forces in the file act on."""
+    geometry = {"model/centroids": assembly.model.blocks.centroids, "contacts/points": assembly.contacts.points}
+    for name, built in geometry.items():
+        stored = _dataset(file, name, path.stat().st_size)[()]
+        apart = stored.shape != built.shape or np.abs(stored - built).max(initial=0.0)
+        if not apart <= SAME_PLACE * np.abs(built).max(initial=0.0):
+            words = f"{name} are not those that its deck gives: run the deck again, mbla verify says what differs"
+            raise FileError("damaged-result-file", f"{path}: {words}")
 
 
 def sizes_of(assembly: Assembly) -> dict[str, int]:

@@ -96,8 +96,10 @@ def _image() -> Iterator[tuple[io.BytesIO, h5py.File]]:
         yield image, file
 
 
-def read_results_hdf5(path: Path) -> Results:
+def read_results_hdf5(path: Path, *, to_verify: bool = False) -> Results:
     """Results from a file: its deck builds model and contacts again, its arrays are what was found.
+
+    to_verify : blocks and contact points may be elsewhere than those of its deck: a verification says where they are
 
     Raises FileError where the file cannot be read, is not an mbla result, has another layout version or is damaged,
     and where its arrays are not of what its deck gives.
@@ -107,7 +109,7 @@ def read_results_hdf5(path: Path) -> Results:
     _try_opening(path)
     try:
         with h5py.File(path, "r", locking=False) as file:
-            return results_of(file, path)
+            return results_of(file, path, to_verify=to_verify)
     except FileError:
         raise
     except OSError as error:

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from mbla.errors import FileError
 from mbla.results.hdf5.content import content_of
 from mbla.results.hdf5.result_file import read_results_hdf5, write_results_hdf5
 from mbla.results.results import Results
@@ -66,12 +67,20 @@ def test_the_full_results_leave_no_field_at_its_default() -> None:
 def test_the_model_is_that_of_the_deck(path: Path, results: Results) -> None:
     """Arrays of the model in the file are for other readers."""
     with changing(path) as file:
-        file["model/centroids"][...] = 7.0
         del file["contacts/areas"], file["model/title"]
     back = read_results_hdf5(path)
     assert back.model.title == "Tower and brick"
     assert back.model.blocks.centroids == pytest.approx(results.model.blocks.centroids)
     assert back.contacts.points == pytest.approx(results.contacts.points, abs=1e-12)
+
+
+@pytest.mark.parametrize("name", ["model/centroids", "contacts/points"])
+def test_forces_are_not_put_on_blocks_and_points_that_are_elsewhere(path: Path, name: str) -> None:
+    with changing(path) as file:
+        file[name][0, 0] += 1e-3
+    with pytest.raises(FileError, match=f"{name} are not those that its deck gives"):
+        read_results_hdf5(path)
+    read_results_hdf5(path, to_verify=True)
 
 
 @pytest.mark.parametrize(
