@@ -6,8 +6,6 @@ from collections.abc import Sequence
 
 from mbla.deck.sections.assessment import LIMIT_STATES
 from mbla.errors import Message
-from mbla.results.collapse.collapse import Collapse
-from mbla.results.collapse.interface_modes import InterfaceMotion
 from mbla.results.outcome import answer_bounds, answer_of, least_of, torsion_of
 from mbla.results.outcome import ultimate_displacement as displacement_at_the_end
 from mbla.results.quantities.answers import OWN
@@ -22,8 +20,6 @@ SHOWN = Group[CaseResult](lambda scene: scene.solved, table="cases")
 SCENE = Group[Scene](lambda scene: scene, table="cases")
 SOLUTION = Group[Solution](lambda scene: scene.solved.solution, file="cases/*", table="cases", part="solution")
 CHECKS = Group[Checks](lambda scene: scene.solved.checks, file="cases/*", table="cases", part="solution")
-_COLLAPSE = Group[Collapse](lambda scene: scene.collapse, table="cases")
-_INTERFACES = Group[InterfaceMotion](lambda scene: scene.interfaces, table="cases")
 
 CASES.fields(
     CaseResult,

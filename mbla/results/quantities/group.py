@@ -135,7 +135,7 @@ class Group(Generic[Owner]):
             start_of=dimension if rule == "start" else "",
             open=rule == "open",
             part=self.part if said.part is None else said.part.format(self.part),
-            unverified=UNVERIFIED.get(self.unverified if said.unverified is None else said.unverified, ""),
+            unverified=(UNVERIFIED | {"": ""})[self.unverified if said.unverified is None else said.unverified],
             proved=said.proved,
             table=(self.table if said.table is None else said.table) if said.files else "",
             files=tuple(said.files.split()),
