@@ -14,6 +14,7 @@ import pytest
 from mbla.cli import main
 from mbla.deck.content import OutputSection
 from tests.line import BLOCK, HEAD
+from tests.results.json_keys import values_below
 from tests.results.outputs import write_outputs
 from tests.results.results_md import table
 from tests.results.synthetic import full_results
@@ -97,24 +98,18 @@ def answered(folder: Path, capsys: pytest.CaptureFixture[str]) -> Any:
 Keys = dict[str, tuple[str, str]]
 
 
-def walk(value: Any, path: str, known: Keys, seen: set[str]) -> None:
-    """Every key below a value is on the page, with its type, or is named in the words on what holds it."""
-    if path in known:
-        kind = re.sub(r" \[.*\]$", "", known[path][0])
-        right = kind.endswith("?") if value is None else type(value) in JSON_TYPES[kind.rstrip("?")]
-        assert right, f"{path} is {value!r}, on the page {kind}"
-        seen.add(path)
-    elif path and not path.endswith("[]"):
-        owner, _, key = path.rpartition(".")
-        within = any(other.startswith(f"{path}.") for other in known)
-        assert within or f"`{key}`" in known.get(owner, ("", ""))[1], f"{path} is not on the page"
-    if isinstance(value, dict):
-        for key, item in value.items():
-            own = f"{path}.{key}" if path else key
-            walk(item, own if own in known or f"{path}.*" not in known else f"{path}.*", known, seen)
-    if isinstance(value, list):
-        for item in value:
-            walk(item, f"{path}[]", known, seen)
+def walk(record: dict[str, Any], known: Keys, seen: set[str]) -> None:
+    """Every key of a record is on the page, with its type, or is named in the words on what holds it."""
+    for path, value in values_below(record, known):
+        if path in known:
+            kind = re.sub(r" \[.*\]$", "", known[path][0])
+            right = kind.endswith("?") if value is None else type(value) in JSON_TYPES[kind.rstrip("?")]
+            assert right, f"{path} is {value!r}, on the page {kind}"
+            seen.add(path)
+        elif not path.endswith("[]"):
+            owner, _, key = path.rpartition(".")
+            within = any(other.startswith(f"{path}.") for other in known)
+            assert within or f"`{key}`" in known.get(owner, ("", ""))[1], f"{path} is not on the page"
 
 
 def keys_of(title: str) -> Keys:
@@ -125,7 +120,7 @@ def unseen(known: Keys, *records: dict[str, Any]) -> set[str]:
     """Keys of the page that no record has; each record has none but those."""
     seen: set[str] = set()
     for record in records:
-        walk(record, "", known, seen)
+        walk(record, known, seen)
     return set(known) - seen
 
 
