@@ -1,7 +1,7 @@
 """Contacts stage: where blocks touch each other and the ground.
 
-Bounding boxes give pairs of blocks (:mod:`~mbla.contacts.broad_phase`), opposite facets of a pair that lie on one
-plane are clipped against each other (:mod:`~mbla.contacts.narrow_phase`), the corners of what they share become
+Bounding boxes give pairs of blocks (:mod:`~mbla.contacts.faces.broad_phase`), opposite facets of a pair that lie on one
+plane are clipped against each other (:mod:`~mbla.contacts.faces.narrow_phase`), the corners of what they share become
 contact points (:mod:`~mbla.contacts.outlines.corners`).
 """
 

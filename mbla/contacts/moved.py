@@ -23,9 +23,9 @@ import numpy as np
 import shapely
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
-from mbla.contacts.common_surfaces import FacetSearch, find_common_surfaces
 from mbla.contacts.contacts import Contacts
-from mbla.contacts.facets import Facets, build_facets
+from mbla.contacts.faces.common_surfaces import FacetSearch, find_common_surfaces
+from mbla.contacts.faces.facets import Facets, build_facets
 from mbla.contacts.joints import joints_of_interfaces, laws_of_nearest
 from mbla.contacts.outlines.corners import areas_and_centroids, needed_corners
 from mbla.contacts.outlines.overlay import Overlays, gap_at, in_space

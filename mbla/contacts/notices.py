@@ -9,8 +9,8 @@ import shapely
 
 from mbla.arrays import FloatArray, IntArray
 from mbla.contacts.contacts import ContactReport
+from mbla.contacts.faces.narrow_phase import Patches
 from mbla.contacts.glue import solid_sizes
-from mbla.contacts.narrow_phase import Patches
 from mbla.contacts.overlaps import MOST_OVERLAPS
 from mbla.contacts.report import WIDEST, Findings
 from mbla.deck.sections.contacts import ContactsSection

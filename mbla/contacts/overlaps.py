@@ -20,7 +20,7 @@ from typing import Any
 import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray, starts
-from mbla.contacts.facets import Facets
+from mbla.contacts.faces.facets import Facets
 from mbla.contacts.outlines.overlay import frames_from_normals
 from mbla.contacts.penetration import convex_penetration, deepest_point
 from mbla.model.solids.blocks import Blocks

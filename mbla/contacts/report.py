@@ -12,13 +12,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
-from mbla.contacts.broad_phase import NEAR_MISS
 from mbla.contacts.contacts import ContactReport
-from mbla.contacts.facets import Facets
+from mbla.contacts.faces.broad_phase import NEAR_MISS
+from mbla.contacts.faces.facets import Facets
+from mbla.contacts.faces.narrow_phase import Patches, find_patches, judge
+from mbla.contacts.faces.third_block import SeparatedPairs
 from mbla.contacts.glue import Glue
-from mbla.contacts.narrow_phase import Patches, find_patches, judge
 from mbla.contacts.overlaps import Overlaps
-from mbla.contacts.third_block import SeparatedPairs
 from mbla.model.model import Model
 from mbla.model.solids.measures import connected_labels
 

@@ -8,20 +8,20 @@ import numpy as np
 import shapely
 
 from mbla.arrays import BoolArray, FloatArray, IntArray, row_of_item
-from mbla.contacts.broad_phase import find_block_pairs
 from mbla.contacts.contacts import ContactReport, Contacts
-from mbla.contacts.facets import Facets, build_facets
+from mbla.contacts.faces.broad_phase import find_block_pairs
+from mbla.contacts.faces.facets import Facets, build_facets
+from mbla.contacts.faces.narrow_phase import Patches, Verdicts, find_patches, judge
+from mbla.contacts.faces.overlapping_supports import without_overlapping_supports
+from mbla.contacts.faces.third_block import SeparatedPairs, drop_pairs_separated_by_third_block
 from mbla.contacts.glue import Glue, glue_blocks
 from mbla.contacts.joints import Laws, joints_of_interfaces
-from mbla.contacts.narrow_phase import Patches, Verdicts, find_patches, judge
 from mbla.contacts.notices import outline_notices, report_notices
 from mbla.contacts.outlines.corners import areas_and_centroids, needed_corners
 from mbla.contacts.outlines.overlay import Overlays, frames_from_normals, in_space
 from mbla.contacts.outlines.points import in_pieces, interface_points
-from mbla.contacts.overlapping_supports import without_overlapping_supports
 from mbla.contacts.overlaps import SLIGHT, find_overlaps
 from mbla.contacts.report import Findings, both_fixed, build_report, held_blocks, misses_within, unsupported_parts
-from mbla.contacts.third_block import SeparatedPairs, drop_pairs_separated_by_third_block
 from mbla.deck.sections.contacts import ContactsSection
 from mbla.errors import Notice
 from mbla.model.model import Model, PrescribedInterfaces

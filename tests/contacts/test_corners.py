@@ -9,7 +9,7 @@ import pytest
 import shapely
 
 from mbla.arrays import IntArray
-from mbla.contacts.facets import Facets, build_facets
+from mbla.contacts.faces.facets import Facets, build_facets
 from mbla.contacts.outlines.corners import areas_and_centroids, needed_corners
 from mbla.model.solids.polygons import Polygons, union_by_row
 from mbla.model.solids.polyhedra import Polyhedra, polyhedra_from_lists
@@ -151,6 +151,6 @@ def test_what_uniting_faces_without_a_grid_loses_is_found_again(monkeypatch: pyt
             return np.asarray(polygons[np.unique(row, return_index=True)[1]])
         return union_by_row(polygons, row, n_rows, grid)
 
-    monkeypatch.setattr("mbla.contacts.facets.union_by_row", losing)
+    monkeypatch.setattr("mbla.contacts.faces.facets.union_by_row", losing)
     facets = build_facets(blocks_of(cut_top()))
     assert shapely.area(facets.polygons) == pytest.approx([2, 2, 2, 1, 2, 1])

@@ -14,8 +14,8 @@ from hypothesis import strategies as st
 
 from mbla.arrays import FloatArray, starts
 from mbla.contacts import find_contacts, overlap_messages
-from mbla.contacts.broad_phase import find_block_pairs
-from mbla.contacts.facets import build_facets
+from mbla.contacts.faces.broad_phase import find_block_pairs
+from mbla.contacts.faces.facets import build_facets
 from mbla.contacts.overlaps import Overlaps, find_overlaps
 from mbla.model.solids.convex import clip_convex, convex_loops
 from mbla.model.solids.polyhedra import Polyhedra, join_polyhedra, polyhedra_from_lists

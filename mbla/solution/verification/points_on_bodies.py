@@ -6,7 +6,7 @@ import numpy as np
 import shapely
 
 from mbla.arrays import FloatArray, IntArray, starts
-from mbla.contacts.facets import build_facets
+from mbla.contacts.faces.facets import build_facets
 from mbla.model.solids.blocks import Blocks
 
 SAME_PLACE = 1e-7

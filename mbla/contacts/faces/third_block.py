@@ -16,7 +16,7 @@ import numpy as np
 import shapely
 
 from mbla.arrays import BoolArray, FloatArray, IntArray, starts
-from mbla.contacts.narrow_phase import Patches, Verdicts, common_parts
+from mbla.contacts.faces.narrow_phase import Patches, Verdicts, common_parts
 from mbla.contacts.outlines.overlay import concatenate
 from mbla.model.solids.blocks import Blocks
 from mbla.model.solids.plane import meeting_boxes

@@ -12,7 +12,7 @@ is judged by itself (tolerance ε, lengths relative to the block size of the pai
 Where the part is narrow because a facet is (a finely faceted cylinder in its socket), and takes at least half of that
 facet, it is no sliver but a contact. Parts narrower than a thousandth of ε are facets that share an edge, not a
 surface: they are left out. What has a block in between is left out after
-(:mod:`mbla.contacts.third_block`).
+(:mod:`mbla.contacts.faces.third_block`).
 """
 
 from __future__ import annotations
@@ -23,9 +23,9 @@ import numpy as np
 import shapely
 
 from mbla.arrays import FloatArray, IntArray
-from mbla.contacts.broad_phase import NEAR_MISS, are_opposite
-from mbla.contacts.common_surfaces import FacetSearch, find_common_surfaces
-from mbla.contacts.facets import Facets
+from mbla.contacts.faces.broad_phase import NEAR_MISS, are_opposite
+from mbla.contacts.faces.common_surfaces import FacetSearch, find_common_surfaces
+from mbla.contacts.faces.facets import Facets
 from mbla.contacts.outlines.overlay import Overlays, Rows, gap_at, local_maps
 from mbla.model.model import Ground
 from mbla.model.solids.blocks import Blocks

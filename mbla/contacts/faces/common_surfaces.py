@@ -13,8 +13,8 @@ import numpy as np
 import shapely
 
 from mbla.arrays import FloatArray, IntArray
-from mbla.contacts.broad_phase import Faces, find_facet_pairs
-from mbla.contacts.facets import Facets, with_surfaces
+from mbla.contacts.faces.broad_phase import Faces, find_facet_pairs
+from mbla.contacts.faces.facets import Facets, with_surfaces
 from mbla.contacts.outlines.overlay import Overlays, Planes, build_overlays, concatenate, gap_at, local_maps
 from mbla.model.model import Ground
 from mbla.model.solids.blocks import Blocks

@@ -17,8 +17,8 @@ import shapely
 
 from mbla.arrays import BoolArray, IntArray
 from mbla.contacts.contacts import ContactsRefused
+from mbla.contacts.faces.narrow_phase import Patches, common_parts
 from mbla.contacts.joints import Laws
-from mbla.contacts.narrow_phase import Patches, common_parts
 from mbla.errors import Notice
 from mbla.model.model import Model
 from mbla.model.solids.polygons import (

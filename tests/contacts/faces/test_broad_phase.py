@@ -10,10 +10,10 @@ import pytest
 import shapely
 
 from mbla.arrays import FloatArray, IntArray
-from mbla.contacts.broad_phase import MOST_PAIRS, NEAR_MISS, are_opposite, find_block_pairs, find_facet_pairs
 from mbla.contacts.contacts import ContactsRefused
-from mbla.contacts.facets import build_facets
-from mbla.contacts.narrow_phase import Patches, find_patches, judge
+from mbla.contacts.faces.broad_phase import MOST_PAIRS, NEAR_MISS, are_opposite, find_block_pairs, find_facet_pairs
+from mbla.contacts.faces.facets import build_facets
+from mbla.contacts.faces.narrow_phase import Patches, find_patches, judge
 from mbla.contacts.outlines.overlay import Overlays
 from mbla.contacts.search import patches_of_prescribed
 from mbla.model.model import PrescribedInterfaces

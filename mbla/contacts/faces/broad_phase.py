@@ -12,7 +12,7 @@ import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.contacts.contacts import ContactsRefused
-from mbla.contacts.facets import Facets
+from mbla.contacts.faces.facets import Facets
 from mbla.model.model import Ground
 from mbla.model.solids.blocks import Blocks
 from mbla.model.solids.plane import CrowdedError, meeting_boxes
