@@ -41,7 +41,7 @@ from mbla.results.verification.asked import (
     held_against_deck,
 )
 from mbla.results.verification.remarks import MADE_LAST, differences_of_remarks, remarks_found_again
-from mbla.solution.derived import with_derived
+from mbla.solution.full_model.derived import with_derived
 from mbla.solution.further.further import Further
 from mbla.solution.further.sensitivity.sensitivity import sensitivity_of
 from mbla.solution.further.sensitivity.slopes import Slope

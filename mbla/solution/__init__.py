@@ -1,9 +1,9 @@
 """Solution: load factor, forces and mechanism of a program, and their verification.
 
-``solve`` solves the parts of a structure one by one; ``part`` alone decides, by one record of ``settings``, with which
-flow rule and scheme a part is solved. ``associative`` proves a load factor from both sides, conditions on interfaces
-included; ``law`` has the step of elastic joints, ``flow`` their path, ``standing`` the state of the stress-free
-assembly; ``nonassociative`` has one file a scheme.
+``solve`` solves the ``parts`` of a structure one by one; ``parts.part`` alone decides, by one record of ``settings``,
+with which flow rule and scheme a part is solved. ``associative`` proves a load factor from both sides, conditions on
+interfaces included; ``law`` has the step of elastic joints, ``flow`` their path, ``standing`` the state of the
+stress-free assembly; ``nonassociative`` has one file a scheme. ``full_model`` leads back to blocks and contact points.
 
 ``sequence`` answers load cases that take several analyses: tilting tables, settling supports, the range of a force.
 ``further`` and ``pushover`` answer the questions besides the load factor, without any effect on it.

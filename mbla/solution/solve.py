@@ -23,13 +23,13 @@ from mbla.program.reductions import Reduced
 from mbla.program.resultants.twisting_interfaces import TwistingInterfaces
 from mbla.solution.associative.solve_associative import AssociativeResult
 from mbla.solution.cone_solvers.cone_solution import Log
-from mbla.solution.deciding_part import SolvedParts, combined, renumbered
+from mbla.solution.full_model.lifted import solution_on_blocks
+from mbla.solution.full_model.of_interfaces import of_interfaces
 from mbla.solution.law.interfaces import NONE, Interfaces
-from mbla.solution.lifted import solution_on_blocks
-from mbla.solution.of_interfaces import of_interfaces
-from mbla.solution.part import associative_part, with_flow_rule, with_least, with_standing, with_torsion
-from mbla.solution.part_context import PartContext
-from mbla.solution.part_result import PartResult
+from mbla.solution.parts.deciding_part import SolvedParts, combined, renumbered
+from mbla.solution.parts.part import associative_part, with_flow_rule, with_least, with_standing, with_torsion
+from mbla.solution.parts.part_context import PartContext
+from mbla.solution.parts.part_result import PartResult
 from mbla.solution.proof.claim import with_proof
 from mbla.solution.reach import stays_within, within_reach
 from mbla.solution.settings import SolverSettings

@@ -30,7 +30,7 @@ from mbla.solution.settings import solver_settings
 from mbla.solution.solve import solve
 from tests.line import HEAD
 from tests.performance.recording import record
-from tests.solution.test_pushover_laws import random_deck
+from tests.solution.pushover.test_pushover_laws import random_deck
 
 SIDES = {7: 20, 20: 100, 32: 20}
 """courses, as many units long, and rows"""

@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from mbla.solution import deciding_part
 from mbla.solution.associative.condition_cones import ConditionCones
 from mbla.solution.associative.solve_associative import solve_associative
 from mbla.solution.nonassociative import livesley
 from mbla.solution.nonassociative.livesley import solve_livesley
+from mbla.solution.parts import deciding_part
 from mbla.solution.proof import static_repair
 from mbla.solution.proof.static_repair import repaired_forces
 from mbla.solution.settings import SolverSettings

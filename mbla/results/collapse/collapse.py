@@ -47,7 +47,7 @@ from mbla.results.collapse.joint_planes import HingeLine, SlidingPlane, cluster_
 from mbla.results.collapse.mechanics import Work, work_of
 from mbla.results.collapse.rigid_parts import PartMotion, part_motions, rigid_parts
 from mbla.results.collapse.ties import TieState, tie_rows
-from mbla.solution.contact_modes import contact_modes
+from mbla.solution.full_model.contact_modes import contact_modes
 from mbla.solution.solution import Mechanics
 from mbla.solution.verification.statics import contact_velocities
 

@@ -7,8 +7,8 @@ crushes, its axis crosses the interface off the closed points and reaches as far
 
 Two rigid bodies move against each other by one velocity v of body b relative to a at the centroid c of the interface
 and one rotation ω; the velocity at a point x of it is v + ω × (x − c). What that is called is decided by ratios of the
-motion of the interface itself and by the modes of its contact points (:mod:`mbla.solution.contact_modes`), so that
-neither units nor the size of the mechanism matter:
+motion of the interface itself and by the modes of its contact points (:mod:`mbla.solution.full_model.contact_modes`),
+so that neither units nor the size of the mechanism matter:
 
 - stick: nothing in it moves, measured by the fastest contact of the structure;
 - open: all of its points open, or it opens without tilting;

@@ -11,7 +11,7 @@ from mbla.arrays import FloatArray, IntArray
 from mbla.errors import Message
 from mbla.model.model import Model
 from mbla.model.ties.ties import OUTSIDE
-from mbla.solution.contact_modes import AT_REST
+from mbla.solution.full_model.contact_modes import AT_REST
 from mbla.solution.solution import Mechanics, Solution
 
 

@@ -18,7 +18,7 @@ from mbla.contacts.contacts import Contacts
 from mbla.model.model import LoadCase, Model
 from mbla.program import Program, assemble
 from mbla.program.resultants.resultants_map import resultants_map
-from mbla.solution.contact_modes import contact_modes
+from mbla.solution.full_model.contact_modes import contact_modes
 from mbla.solution.proof.kinematic_repair import repaired_mechanisms
 from mbla.solution.proof.static_repair import repaired_forces
 from mbla.solution.reach import stays_within, within_reach

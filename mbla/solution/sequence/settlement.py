@@ -20,7 +20,7 @@ from mbla.program.assemble import assemble
 from mbla.program.reductions import reduce_program
 from mbla.program.reductions.steps import ReductionSwitches
 from mbla.solution.cone_solvers.cone_solution import ConeSolution
-from mbla.solution.mechanics import forces_of
+from mbla.solution.full_model.mechanics import forces_of
 from mbla.solution.proof.static_repair import repaired_forces
 from mbla.solution.sequence.solved_case import AnalysisSequence
 from mbla.solution.settings import SolverSettings

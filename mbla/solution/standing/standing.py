@@ -27,8 +27,8 @@ from mbla.solution.cone_solvers.choice import cone_solver
 from mbla.solution.cone_solvers.cone_solution import ConeSolution, Log
 from mbla.solution.flow.gravity_step import Gravity, gravity_step
 from mbla.solution.flow.settings import RATIOS
+from mbla.solution.full_model.mechanics import lifted, motion_of
 from mbla.solution.law.elastic_joints import ElasticJoints
-from mbla.solution.mechanics import lifted, motion_of
 from mbla.solution.nonassociative.collapse_state import CollapseState, StepHistory
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import WITH_VALUE, ProgramRecord, Standing, StandingResult

@@ -17,7 +17,7 @@ from mbla.contacts.contacts import Contacts
 from mbla.errors import Message
 from mbla.model.model import LoadCase, Model
 from mbla.process.stopwatch import stage
-from mbla.solution.lifted import model_of, rule_of, solution_on_bodies
+from mbla.solution.full_model.lifted import model_of, rule_of, solution_on_bodies
 from mbla.solution.solution import Checks, Solution, Standing, Status
 from mbla.solution.verification.case import Case
 from mbla.solution.verification.elastic_law import elastic_residual

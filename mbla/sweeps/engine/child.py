@@ -140,7 +140,7 @@ def requested_only(deck: Deck, plan: Plan) -> Deck:
     """The deck of a point, without a search for lower load factors, and a path with torsion of uniform pressure, where
     no column and no file shows what they find.
 
-    These are further results (``mbla.solution.part``), change no other value, and may take longer than the load factor.
+    These are further results (``mbla.solution.parts.part``), change no other value, and take longer than the factor.
     """
     if plan.keep != "none" or any(path.partition(".")[0] in ON_REQUEST for path in plan.results):
         return deck

@@ -15,7 +15,7 @@ from mbla.program.reductions.mirror import Mirror
 from mbla.program.reductions.steps import ReductionSwitches
 from mbla.program.yield_conditions import yield_violation
 from mbla.solution.associative.solve_associative import solve_associative
-from mbla.solution.mechanics import lifted
+from mbla.solution.full_model.mechanics import lifted
 from mbla.solution.nonassociative.collapse_state import CollapseState
 from mbla.solution.settings import SolverSettings
 from tests.line import BLOCK, HEAD, WALL, Line, line_of, verified

@@ -9,10 +9,10 @@ from typing import cast
 import numpy as np
 import pytest
 
-from mbla.solution.deciding_part import least_by_stiffness
 from mbla.solution.flow.path_of_part import PathOfPart
 from mbla.solution.nonassociative.by_stiffness import another_answer, load_factors
-from mbla.solution.part_result import PartResult
+from mbla.solution.parts.deciding_part import least_by_stiffness
+from mbla.solution.parts.part_result import PartResult
 from mbla.solution.solution import PathByStiffness
 
 NAN = float("nan")

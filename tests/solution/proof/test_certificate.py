@@ -12,7 +12,7 @@ from mbla.program.program import Program
 from mbla.program.reductions import reduce_program
 from mbla.program.reductions.steps import ReductionSwitches
 from mbla.solution.associative.solve_associative import solve_associative
-from mbla.solution.mechanics import motion_of
+from mbla.solution.full_model.mechanics import motion_of
 from mbla.solution.proof.certificate import steepest_fall
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Solution, Standing, Status

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from mbla.solution.associative.solve_associative import solve_associative
-from mbla.solution.mechanics import lifted, mechanics_of
+from mbla.solution.full_model.mechanics import lifted, mechanics_of
 from mbla.solution.solution import Mechanics
 from mbla.solution.verification.least import least_check
 from mbla.solution.verification.residuals import Residuals

@@ -12,8 +12,8 @@ from mbla.assembly.lift import motions_of_bodies
 from mbla.assembly.rigid_bodies import RigidBodies
 from mbla.model.model import LoadCase
 from mbla.program.assemble import yield_limits
-from mbla.solution.contact_modes import contact_modes
-from mbla.solution.lifted import (
+from mbla.solution.full_model.contact_modes import contact_modes
+from mbla.solution.full_model.lifted import (
     MOTIONS,
     model_of,
     rule_of,
@@ -21,7 +21,7 @@ from mbla.solution.lifted import (
     ties_apart,
     without_rounding,
 )
-from mbla.solution.of_interfaces import of_interfaces
+from mbla.solution.full_model.of_interfaces import of_interfaces
 from mbla.solution.solution import Mechanics, Solution
 from mbla.solution.verification.statics import contact_velocities
 

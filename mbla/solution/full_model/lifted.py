@@ -22,7 +22,7 @@ from mbla.assembly.lift import (
     without_tie_rows,
 )
 from mbla.assembly.rigid_bodies import RigidBodies
-from mbla.solution.contact_modes import AT_REST
+from mbla.solution.full_model.contact_modes import AT_REST
 from mbla.solution.solution import ContactMode, Mechanics, Solution, StandingResult
 from mbla.solution.thresholds import STILL
 

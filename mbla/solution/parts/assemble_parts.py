@@ -15,8 +15,8 @@ from mbla.arrays import FloatArray
 from mbla.program.program import Program
 from mbla.solution.cone_solvers.cone_solution import Log
 from mbla.solution.flow.resting_forces import resting_forces
+from mbla.solution.full_model.mechanics import lifted
 from mbla.solution.law.interfaces import NONE, Interfaces
-from mbla.solution.mechanics import lifted
 from mbla.solution.nonassociative.collapse_state import CollapseState, StepHistory
 from mbla.solution.settings import SolverSettings
 

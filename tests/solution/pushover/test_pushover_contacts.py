@@ -12,8 +12,8 @@ from mbla.arrays import BoolArray, FloatArray
 from mbla.solution.pushover import way as ways
 from mbla.solution.pushover.place import Place
 from mbla.solution.pushover.renewal import renewed
-from tests.solution.test_pushover import pushover_of
-from tests.solution.test_pushover_laws import random_deck
+from tests.solution.pushover.test_pushover import pushover_of
+from tests.solution.pushover.test_pushover_laws import random_deck
 
 
 def wrenches(place: Place) -> dict[tuple[int, int], FloatArray]:

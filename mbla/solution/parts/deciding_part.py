@@ -11,14 +11,14 @@ from mbla.arrays import FloatArray
 from mbla.errors import Message
 from mbla.program.program import Program
 from mbla.solution.flow.path_record import Stop
+from mbla.solution.full_model.mechanics import certificate_of, mechanics_of
 from mbla.solution.law.interfaces import NONE, Interfaces
-from mbla.solution.mechanics import certificate_of, mechanics_of
 from mbla.solution.nonassociative.collapse_state import CollapseState
 from mbla.solution.nonassociative.least_found import looks_lower
 from mbla.solution.nonassociative.locking import locking_forces, locking_forces_of_part
-from mbla.solution.part_context import PartContext
-from mbla.solution.part_result import PartResult
-from mbla.solution.parts import assemble_parts
+from mbla.solution.parts.assemble_parts import assemble_parts
+from mbla.solution.parts.part_context import PartContext
+from mbla.solution.parts.part_result import PartResult
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Mechanics, PathByStiffness, ProgramRecord, Solution, Status
 

@@ -11,7 +11,7 @@ from mbla.contacts.contacts import Contacts
 from mbla.model.model import Model
 from mbla.program.assemble import yield_limits
 from mbla.program.resultants.resultants_map import resultants_map
-from mbla.solution.contact_modes import AT_REST, contact_modes
+from mbla.solution.full_model.contact_modes import AT_REST, contact_modes
 from mbla.solution.solution import ContactMode, Mechanics
 from mbla.solution.verification.interface_laws import (
     InterfaceLaws,

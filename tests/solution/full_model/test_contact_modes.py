@@ -5,7 +5,7 @@ import pytest
 
 from mbla.program.assemble import yield_limits
 from mbla.program.yield_conditions import YieldLimits
-from mbla.solution.contact_modes import contact_modes
+from mbla.solution.full_model.contact_modes import contact_modes
 from mbla.solution.solution import ContactMode
 from tests.line import WALL, line_of, solution_of
 

@@ -16,8 +16,8 @@ from mbla.solution.nonassociative.least_found import least_found, looks_lower
 from mbla.solution.nonassociative.locking import locks_at_dilatancy
 from mbla.solution.nonassociative.schemes import slope_of, solve_nonassociative
 from mbla.solution.nonassociative.torsion import solve_with_torsion
-from mbla.solution.part_context import PartContext
-from mbla.solution.part_result import PartResult
+from mbla.solution.parts.part_context import PartContext
+from mbla.solution.parts.part_result import PartResult
 from mbla.solution.proof.certificate import steepest_fall
 from mbla.solution.solution import WITH_VALUE, ProgramRecord, Status
 from mbla.solution.standing.standing import assess_dead_load, standing_without_equilibrium

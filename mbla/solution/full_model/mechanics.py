@@ -8,7 +8,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.program.program import Program
-from mbla.solution.contact_modes import contact_modes
+from mbla.solution.full_model.contact_modes import contact_modes
 from mbla.solution.nonassociative.collapse_state import CollapseState, StepHistory
 from mbla.solution.solution import Mechanics
 

@@ -10,10 +10,10 @@ import pytest
 from mbla.program.program import Program
 from mbla.program.reductions import reduce_program
 from mbla.program.reductions.steps import ReductionSwitches
-from mbla.solution import parts as whole
 from mbla.solution.associative.solve_associative import solve_associative
 from mbla.solution.nonassociative.collapse_state import CollapseState
-from mbla.solution.parts import assemble_parts, at_rest
+from mbla.solution.parts import assemble_parts as whole
+from mbla.solution.parts.assemble_parts import assemble_parts, at_rest
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Status
 from mbla.solution.standing import standing

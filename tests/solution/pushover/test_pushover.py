@@ -20,7 +20,7 @@ from mbla.solution.settings import solver_settings
 from mbla.solution.solve import solve
 from tests.line import BLOCK
 
-DECKS = Path(__file__).parents[2] / "decks"
+DECKS = Path(__file__).parents[3] / "decks"
 ROCKING = DECKS / "tutorials" / "rocking_block.yaml"
 ARCH = DECKS / "tutorials" / "arch.yaml"
 WALL_1 = DECKS / "benchmarks" / "published" / "ferris_wall_1.yaml"

@@ -14,7 +14,7 @@ from mbla.results.results import CaseResult
 from mbla.solution.pushover.pushed import CurveEnd
 from mbla.solution.solution import Status
 from tests.line import case_of
-from tests.solution.test_pushover import DECKS, columns
+from tests.solution.pushover.test_pushover import DECKS, columns
 
 HEAD = "mbla: 1\nmaterials: {stone: {density: 2000}}\n"
 

@@ -8,12 +8,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from mbla.solution import part
 from mbla.solution.associative.solve_associative import AssociativeResult
 from mbla.solution.nonassociative.schemes import NOT_PUBLISHED, solve_nonassociative
-from mbla.solution.part import SEARCH_BROKE_DOWN
-from mbla.solution.part_context import PartContext
-from mbla.solution.part_result import PartResult
+from mbla.solution.parts import part
+from mbla.solution.parts.part import SEARCH_BROKE_DOWN
+from mbla.solution.parts.part_context import PartContext
+from mbla.solution.parts.part_result import PartResult
 from mbla.solution.settings import solver_settings
 from mbla.solution.solution import Status
 from mbla.solution.solve import solve_part
