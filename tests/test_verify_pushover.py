@@ -20,7 +20,7 @@ from mbla.solution.pushover.record import PushedRows, RowPoints
 from mbla.verify import rebuilt, recomputed, verify_file
 from tests.line import BLOCK
 from tests.results.changed_files import written
-from tests.results.listing.test_pushover import TABLE
+from tests.results.listing.sections.test_pushover import TABLE
 
 ROCKS = ("parameters.mu=0.8", "load_cases.push.pushover={step: 0.05, until: 0.2, error: false}")
 SLIDES = (

@@ -34,7 +34,7 @@ def assess(options: argparse.Namespace) -> int:
     with loading():
         from mbla.codes.again import assessed_again
         from mbla.results.hdf5.result_file import read_results_hdf5
-        from mbla.results.listing.assessment_words import all_assessment_lines
+        from mbla.results.listing.sections.assessment_words import all_assessment_lines
         from mbla.results.record.json_record import results_json
         from mbla.results.record.json_values import json_line
 

@@ -38,7 +38,7 @@ def check(options: argparse.Namespace) -> int:
 
             print(json_line(check_json(results, needs)), flush=True)
         else:
-            from mbla.results.listing.model_words import check_listing
+            from mbla.results.listing.sections.model_words import check_listing
 
             print(check_listing(results, needs), end="", flush=True)
         if options.vtu:

@@ -30,7 +30,7 @@ from mbla.deck.text.tree import KeyPath
 from mbla.errors import UsageError
 from mbla.results.collapse.rigid_parts import part_motions, parts_of_one_twist
 from mbla.results.files import OutputFolder
-from mbla.results.listing.mechanism_words import motion_words
+from mbla.results.listing.sections.mechanism_words import motion_words
 from mbla.results.movable_deck import movable_deck, sections_text
 from mbla.results.outcome import answer_of, associative_of, result_of
 from mbla.results.provenance import deck_of

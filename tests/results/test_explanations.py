@@ -18,7 +18,7 @@ from mbla.results.collapse.interface_modes import InterfaceMode
 from mbla.results.exit_status import EXIT_CODES, UNEXPECTED
 from mbla.results.explanations import TOLD, explanations, find_explanations, sections
 from mbla.results.findings import REMARKS_THAT_WARN, WITHOUT_REASON
-from mbla.results.listing.figures import residual_rows
+from mbla.results.listing.sections.figures import residual_rows
 from mbla.solution.solution import Standing, Status
 from mbla.sweeps.command import FAILED_POINTS
 from tests.results.synthetic import tower_results

@@ -14,8 +14,8 @@ from mbla.results.hdf5.result_file import read_results_hdf5
 from mbla.results.listing.answers import range_words
 from mbla.results.listing.listing import listing
 from mbla.results.outcome import answer_bounds
-from mbla.results.pictures.forces import force_texts, thrust_lines
-from mbla.results.pictures.loads import live_marks
+from mbla.results.pictures.marks.forces import force_texts, thrust_lines
+from mbla.results.pictures.marks.loads import live_marks
 from mbla.results.pictures.options import PictureOptions
 from mbla.results.pictures.scene import scene_of
 from mbla.results.record.json_record import results_json

@@ -17,11 +17,12 @@ from mbla.results.findings import remarks_of_run
 from mbla.results.force_range import force_ranges_of
 from mbla.results.hdf5.content import unverified_kinds
 from mbla.results.listing.answers import objective_section, range_words, series_section, worst_words
-from mbla.results.listing.assessment_words import assessment_blocks, code_verdict
 from mbla.results.listing.blocks import Block, Fact, ListingSection, apart, facts, paragraphs
-from mbla.results.listing.contact_words import contact_section
-from mbla.results.listing.figures import figure_blocks, path_blocks, program_blocks
-from mbla.results.listing.forces import (
+from mbla.results.listing.history_words import history_words, pushovers_words
+from mbla.results.listing.sections.assessment_words import assessment_blocks, code_verdict
+from mbla.results.listing.sections.contact_words import contact_section
+from mbla.results.listing.sections.figures import figure_blocks, path_blocks, program_blocks
+from mbla.results.listing.sections.forces import (
     enough_blocks,
     freedom_blocks,
     group_reaction_blocks,
@@ -29,21 +30,25 @@ from mbla.results.listing.forces import (
     reaction_blocks,
     work_blocks,
 )
-from mbla.results.listing.geometric_safety import geometric_safety_blocks
-from mbla.results.listing.history_words import history_words, pushovers_words
-from mbla.results.listing.mechanism_words import FailureDescription, description_of, mechanism_blocks, mechanism_summary
-from mbla.results.listing.model_words import (
+from mbla.results.listing.sections.geometric_safety import geometric_safety_blocks
+from mbla.results.listing.sections.mechanism_words import (
+    FailureDescription,
+    description_of,
+    mechanism_blocks,
+    mechanism_summary,
+)
+from mbla.results.listing.sections.model_words import (
     header_lines,
     model_sections,
     notice_sections,
     reduction_facts,
     settings_section,
 )
-from mbla.results.listing.pushover import curve_blocks
-from mbla.results.listing.sensitivity import sensitivity_blocks
+from mbla.results.listing.sections.pushover import curve_blocks
+from mbla.results.listing.sections.sensitivity import sensitivity_blocks
+from mbla.results.listing.sections.tie_words import tie_force_blocks, tie_title
 from mbla.results.listing.summary import warning_blocks
 from mbla.results.listing.text import counted, full_sentence, number, section_lines, text_of
-from mbla.results.listing.tie_words import tie_force_blocks, tie_title
 from mbla.results.listing.verdict_words import bound_words, known_words, verdict
 from mbla.results.outcome import dimension_of, result_of, unproved_words
 from mbla.results.results import CaseResult, Results

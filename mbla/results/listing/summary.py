@@ -9,10 +9,10 @@ from mbla.errors import Notice
 from mbla.model.model import Model
 from mbla.results.force_range import force_ranges_of
 from mbla.results.listing.answers import answer_columns, range_words, spread_over_positions, status_words, worst_words
-from mbla.results.listing.assessment_words import assessment_words, code_verdict
 from mbla.results.listing.blocks import Block, Paragraph, paragraphs, table_of
-from mbla.results.listing.mechanism_words import description_of, mechanism_summary
-from mbla.results.listing.pushover import curve_words, no_curve_words
+from mbla.results.listing.sections.assessment_words import assessment_words, code_verdict
+from mbla.results.listing.sections.mechanism_words import description_of, mechanism_summary
+from mbla.results.listing.sections.pushover import curve_words, no_curve_words
 from mbla.results.listing.text import counted, lines_of, number
 from mbla.results.listing.verdict_words import bound_words, least_words, reasons, torsion_words, verdict
 from mbla.results.outcome import case_notices, notices_of, result_of

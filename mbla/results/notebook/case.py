@@ -13,8 +13,8 @@ from mbla.model.model import Model
 from mbla.results.assessment import Assessment
 from mbla.results.collapse.collapse import Collapse, collapse_of, failure_of
 from mbla.results.collapse.thrust import Thrust, thrust_of
-from mbla.results.listing.assessment_words import code_verdict
-from mbla.results.listing.mechanism_words import mechanism_summary
+from mbla.results.listing.sections.assessment_words import code_verdict
+from mbla.results.listing.sections.mechanism_words import mechanism_summary
 from mbla.results.listing.verdict_words import reasons, verdict
 from mbla.results.notebook.display import View, case_picture
 from mbla.results.outcome import answer_of, associative_of, least_of, result_of, torsion_of

@@ -12,12 +12,13 @@ import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
 from mbla.results.pictures.camera import Camera, Room, fitted, view_of_case
-from mbla.results.pictures.fill import fill_marks
-from mbla.results.pictures.forces import force_marks
 from mbla.results.pictures.geometry import block_edges, edges_of_blocks
-from mbla.results.pictures.joints import joint_marks
-from mbla.results.pictures.loads import shown_loads
-from mbla.results.pictures.marks import Mark, moved
+from mbla.results.pictures.marks.fill import fill_marks
+from mbla.results.pictures.marks.forces import force_marks
+from mbla.results.pictures.marks.joints import joint_marks
+from mbla.results.pictures.marks.loads import shown_loads
+from mbla.results.pictures.marks.marks import Mark, moved
+from mbla.results.pictures.marks.ties import tie_marks
 from mbla.results.pictures.options import DOTS_PER_INCH, PictureOptions, format_of
 from mbla.results.pictures.page import (
     FIXED_BLOCK,
@@ -38,7 +39,6 @@ from mbla.results.pictures.page import (
 from mbla.results.pictures.plane import PALE, Flat, draw_flat, flat_of
 from mbla.results.pictures.renderer import image_of
 from mbla.results.pictures.scene import Scene, named_groups, part_colours
-from mbla.results.pictures.ties import tie_marks
 
 MARGIN = 0.03
 """of the page around the structure, share of the width"""

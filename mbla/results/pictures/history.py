@@ -9,7 +9,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.results.listing.answers import standing_words
-from mbla.results.listing.pushover import curve_words
+from mbla.results.listing.sections.pushover import curve_words
 from mbla.results.listing.text import number
 from mbla.results.pictures.diagrams import dress, open_diagrams
 from mbla.results.pictures.options import PictureOptions

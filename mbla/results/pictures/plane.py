@@ -18,7 +18,7 @@ from mbla.model.model import Model
 from mbla.model.solids.blocks import Blocks
 from mbla.results.pictures.camera import Camera, axes_of
 from mbla.results.pictures.geometry import block_edges
-from mbla.results.pictures.marks import Mark, moved
+from mbla.results.pictures.marks.marks import Mark, moved
 from mbla.results.pictures.page import GHOST, GROUND, INK, SLAB, Page
 from mbla.results.pictures.scene import Scene
 

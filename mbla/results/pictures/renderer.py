@@ -20,7 +20,7 @@ from mbla.arrays import FloatArray, IntArray
 from mbla.errors import UsageError
 from mbla.results.pictures.camera import Camera
 from mbla.results.pictures.geometry import Slab, block_edges
-from mbla.results.pictures.marks import Mark
+from mbla.results.pictures.marks.marks import Mark
 from mbla.results.pictures.page import GHOST, INK, SLAB, rgb
 from mbla.results.pictures.scene import Scene
 

@@ -15,7 +15,7 @@ from mbla.results.collapse.joint_planes import cluster_joints
 from mbla.results.collapse.motion import drawn_motion, largest_displacements, moved_vertices
 from mbla.results.collapse.thrust import points_to_draw
 from mbla.results.force_range import other_end
-from mbla.results.listing.mechanism_words import mechanism_summary
+from mbla.results.listing.sections.mechanism_words import mechanism_summary
 from mbla.results.listing.text import counted, number
 from mbla.results.listing.verdict_words import verdict
 from mbla.results.outcome import result_of

@@ -11,7 +11,7 @@ from mbla.program.reductions import ProgramSize, ReductionStep
 from mbla.results.assessment import Assessment
 from mbla.results.assessment import Figure as AssessmentFigure
 from mbla.results.collapse.ties import TieRow
-from mbla.results.listing.figures import distinct
+from mbla.results.listing.sections.figures import distinct
 from mbla.results.outcome import RESIDUALS, answer_bounds, answer_of
 from mbla.results.quantities import further, solving, steps, ties
 from mbla.results.quantities.registry import STORED_BY_PATH

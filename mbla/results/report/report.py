@@ -19,10 +19,10 @@ from mbla import __version__
 from mbla.errors import FileError, UsageError
 from mbla.results.disk import write_complete
 from mbla.results.listing.answers import series_section
-from mbla.results.listing.assessment_words import code_verdict
 from mbla.results.listing.blocks import Fact, ListingSection, facts
-from mbla.results.listing.contact_words import contact_section, finding_sections
-from mbla.results.listing.model_words import model_sections, settings_section
+from mbla.results.listing.sections.assessment_words import code_verdict
+from mbla.results.listing.sections.contact_words import contact_section, finding_sections
+from mbla.results.listing.sections.model_words import model_sections, settings_section
 from mbla.results.listing.text import counted, full_sentence, number
 from mbla.results.listing.verdict_words import bound_words, least_words, reasons, verdict
 from mbla.results.outcome import notices_of

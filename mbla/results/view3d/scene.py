@@ -22,16 +22,16 @@ from mbla.results.collapse.motion import largest_displacements, rigid_frames
 from mbla.results.listing.text import number
 from mbla.results.pictures.camera import axes_of, view_of_case
 from mbla.results.pictures.drawing import ghost_edges
-from mbla.results.pictures.forces import force_marks
 from mbla.results.pictures.geometry import block_edges
-from mbla.results.pictures.joints import joint_marks
-from mbla.results.pictures.loads import live_marks
-from mbla.results.pictures.marks import Mark, moved
+from mbla.results.pictures.marks.forces import force_marks
+from mbla.results.pictures.marks.joints import joint_marks
+from mbla.results.pictures.marks.loads import live_marks
+from mbla.results.pictures.marks.marks import Mark, moved
+from mbla.results.pictures.marks.ties import tie_marks
 from mbla.results.pictures.options import PictureOptions
 from mbla.results.pictures.page import FIXED_BLOCK, GROUPS, LIVE_LOAD, REST, SLOW, group_colours, rgb
 from mbla.results.pictures.scene import Scene
 from mbla.results.pictures.scene import scene_of as picture_of
-from mbla.results.pictures.ties import tie_marks
 from mbla.results.results import CaseResult, Results
 
 FRAMES = 4

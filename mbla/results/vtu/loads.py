@@ -24,7 +24,7 @@ from mbla.results.collapse.mechanics import global_forces
 from mbla.results.collapse.motion import displacements_at
 from mbla.results.collapse.ties import acting_with_ties
 from mbla.results.pictures.geometry import ground_slabs
-from mbla.results.pictures.loads import lines_of_action
+from mbla.results.pictures.marks.loads import lines_of_action
 from mbla.results.record.scene import FIGURES, Scene
 from mbla.results.series import without_vehicle
 from mbla.results.vtu.arrays import Arrays

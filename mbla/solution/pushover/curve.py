@@ -29,10 +29,10 @@ from mbla.solution.cone_solvers.cone_solution import Log
 from mbla.solution.pushover.control import MOVES, Control
 from mbla.solution.pushover.followed import STEP_DEPENDENCE, StepErrors, step_dependence, step_errors
 from mbla.solution.pushover.place import Row
+from mbla.solution.pushover.pose.structure import PushedStructure
 from mbla.solution.pushover.pushed import CurveEnd, CurveRow
 from mbla.solution.pushover.pushover import NOT_PUSHED, Pushover
 from mbla.solution.pushover.record import PushedRows, RecordedRow, RowPoints, recorded
-from mbla.solution.pushover.structure import PushedStructure
 from mbla.solution.pushover.way import Way
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import IterationRecord, Mechanics, Solution

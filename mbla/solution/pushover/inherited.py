@@ -12,8 +12,8 @@ from scipy.spatial import cKDTree
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.solution.law.elastic_joints import StepState, smoothed_margin, within
-from mbla.solution.pushover.moved_joints import History, JointsAt, MovedJoints
 from mbla.solution.pushover.place import Place
+from mbla.solution.pushover.pose.moved_joints import History, JointsAt, MovedJoints
 
 SAME_PAIR = 5.0
 """Distance, with pairs of bodies 10 apart and the structure 1 long, within which points are of one pair."""

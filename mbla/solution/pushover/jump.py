@@ -12,9 +12,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray
-from mbla.solution.pushover.moved_joints import MovedJoints
 from mbla.solution.pushover.place import Place, place_after
-from mbla.solution.pushover.pose_step import PoseStep, greatest_motion, turned_on
+from mbla.solution.pushover.pose.moved_joints import MovedJoints
+from mbla.solution.pushover.pose.pose_step import PoseStep, greatest_motion, turned_on
 from mbla.solution.pushover.renewal import renewed
 
 FIRST, LEAST, LONGER, SHORTER, STEPS = 0.01, 1e-6, 1.5, 0.25, 400

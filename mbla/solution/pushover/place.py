@@ -11,8 +11,8 @@ from mbla.assembly.lift import motions_of_blocks
 from mbla.model.pose import Pose
 from mbla.model.ties.moved import TieHistory
 from mbla.solution.law.elastic_joints import StepState
-from mbla.solution.pushover.moved_joints import History, JointsAt, MovedJoints
-from mbla.solution.pushover.pose_step import Found, PoseStep, Smoothed
+from mbla.solution.pushover.pose.moved_joints import History, JointsAt, MovedJoints
+from mbla.solution.pushover.pose.pose_step import Found, PoseStep, Smoothed
 
 
 @dataclass(frozen=True)

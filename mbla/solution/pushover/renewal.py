@@ -11,8 +11,8 @@ from mbla.arrays import BoolArray
 from mbla.model.pose import Pose
 from mbla.model.solids.measures import connected_labels
 from mbla.solution.pushover.inherited import inherited
-from mbla.solution.pushover.moved_joints import History, MovedJoints
 from mbla.solution.pushover.place import Place
+from mbla.solution.pushover.pose.moved_joints import History, MovedJoints
 
 MOVED, FAR, SLIPPED = 0.04, 0.1, 0.01
 """Motion of two solids near each other over their size, of one that is near none, and slip of a point, from which

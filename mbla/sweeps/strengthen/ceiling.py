@@ -12,7 +12,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.results.collapse.ties import TieState, tie_rows
-from mbla.results.listing.mechanism_words import description_of
+from mbla.results.listing.sections.mechanism_words import description_of
 from mbla.results.listing.text import number
 from mbla.results.outcome import result_of
 from mbla.results.results import CaseResult, Results

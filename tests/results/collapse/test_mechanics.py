@@ -22,7 +22,7 @@ from mbla.results.collapse.mechanics import (
     work_of,
 )
 from mbla.results.collapse.thrust import curvature_sides
-from mbla.results.listing.forces import work_blocks
+from mbla.results.listing.sections.forces import work_blocks
 from mbla.results.listing.text import lines_of
 from mbla.solution.solution import Mechanics
 from tests.results.synthetic import (

@@ -8,7 +8,7 @@ from mbla.assembly.rigid_bodies import rigid_bodies
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import Model
 from mbla.results.collapse.rigid_parts import moving_share, part_motions, parts_of_one_twist, reach, rigid_parts
-from mbla.results.listing.mechanism_words import part_table
+from mbla.results.listing.sections.mechanism_words import part_table
 from tests.results.synthetic import cuboids, horizontal_contacts, tower_contacts, tower_model
 
 

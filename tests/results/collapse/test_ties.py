@@ -11,8 +11,8 @@ from mbla.results.collapse.collapse import collapse_of
 from mbla.results.collapse.mechanics import reactions_of
 from mbla.results.collapse.ties import TieState, tie_rows
 from mbla.results.findings import found_notices
+from mbla.results.listing.sections.tie_words import tie_force_blocks
 from mbla.results.listing.text import lines_of
-from mbla.results.listing.tie_words import tie_force_blocks
 from tests.analytic.test_ties import SLENDER, WEIGHT
 from tests.line import case_of, line_of
 from tests.model.test_fill_restraint import DECK as WEDGE

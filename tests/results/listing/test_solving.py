@@ -7,12 +7,12 @@ from dataclasses import replace
 from mbla.program.reductions import ReductionStep, StepState
 from mbla.program.reductions.steps import REDUCTIONS
 from mbla.results.listing.blocks import MOST_ROWS, Fact
-from mbla.results.listing.figures import (
+from mbla.results.listing.sections.figures import (
     path_blocks,
     program_blocks,
     solver_facts,
 )
-from mbla.results.listing.model_words import FOUND, reduction_facts
+from mbla.results.listing.sections.model_words import FOUND, reduction_facts
 from mbla.results.listing.text import lines_of
 from mbla.results.record.json_record import results_json
 from mbla.results.results import Results

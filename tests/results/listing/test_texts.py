@@ -21,7 +21,7 @@ from mbla.questions.reaction import Settlement
 from mbla.questions.tilt import Tilt
 from mbla.results.listing.history_words import path_words
 from mbla.results.listing.listing import case_sections, listing, verification_lines
-from mbla.results.listing.model_words import check_listing
+from mbla.results.listing.sections.model_words import check_listing
 from mbla.results.listing.summary import summary_lines
 from mbla.results.listing.text import WIDTH, lines_of, sentence
 from mbla.results.provenance import CaseNeeds

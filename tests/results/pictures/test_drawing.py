@@ -14,7 +14,7 @@ from mbla.arrays import FloatArray
 from mbla.assembly.assembly import Assembly
 from mbla.results.pictures.camera import axes_of, fitted, view_of_case
 from mbla.results.pictures.drawing import drawing_of
-from mbla.results.pictures.marks import segments
+from mbla.results.pictures.marks.marks import segments
 from mbla.results.pictures.options import VIEWS, PictureOptions
 from mbla.results.pictures.page import GROUPS, HINGE, OPEN, SLAB, WARNING, group_colours, rgb, round_length
 from mbla.results.pictures.plot import draw_picture

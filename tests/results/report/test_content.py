@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from mbla.results.listing.figures import residual_rows
+from mbla.results.listing.sections.figures import residual_rows
 from mbla.results.results import CaseResult
 from mbla.solution.solution import Checks
 from mbla.solution.verification.residuals import Residuals

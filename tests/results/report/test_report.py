@@ -13,9 +13,9 @@ from mbla.deck.sections.analysis import AnalysisSection
 from mbla.errors import Message, Notice, UsageError
 from mbla.results.explanations import explanations
 from mbla.results.listing.blocks import Facts, ListingSection, Paragraph, WordTable
-from mbla.results.listing.contact_words import contact_section
 from mbla.results.listing.listing import case_sections
-from mbla.results.listing.model_words import model_sections, settings_section
+from mbla.results.listing.sections.contact_words import contact_section
+from mbla.results.listing.sections.model_words import model_sections, settings_section
 from mbla.results.listing.text import number
 from mbla.results.record.json_record import results_json
 from mbla.results.report import report

@@ -72,7 +72,7 @@ def test_blocks_of_the_tower() -> None:
 
 
 def test_marks_of_the_tower() -> None:
-    """What they are and where :mod:`tests.results.pictures.test_marks` shows."""
+    """What they are and where :mod:`tests.results.pictures.marks.test_marks` shows."""
     found = marks(scene(tower_results()))
     assert list(found) == ["opening", "crack", "hinge", "resultant", "at the edge of the joint", "live load"]
     assert found["hinge"]["colour"] == HINGE

@@ -13,7 +13,7 @@ import pytest
 import mbla
 from mbla.assembly.assembly import Assembly
 from mbla.results.hdf5.result_file import read_results_hdf5, write_results_hdf5
-from mbla.results.listing.geometric_safety import geometric_safety_blocks
+from mbla.results.listing.sections.geometric_safety import geometric_safety_blocks
 from mbla.results.listing.text import lines_of
 from mbla.results.outcome import case_notices
 from mbla.results.results import CaseResult

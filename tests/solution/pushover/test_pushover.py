@@ -12,7 +12,7 @@ from mbla.assembly import build_assembly
 from mbla.deck import read_deck
 from mbla.model import build_model
 from mbla.program.build import build_program
-from mbla.results.listing.pushover import energy_missing
+from mbla.results.listing.sections.pushover import energy_missing
 from mbla.solution.pushover.curve import Found, pushed
 from mbla.solution.pushover.pushed import CurveEnd, CurveRow
 from mbla.solution.pushover.pushover import Pushover

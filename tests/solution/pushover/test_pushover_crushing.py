@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from mbla.results.listing.pushover import energy_missing
+from mbla.results.listing.sections.pushover import energy_missing
 from mbla.solution.pushover.curve import dropped
 from mbla.solution.pushover.pushed import CurveEnd
 from mbla.solution.verification.pushed_rows import row_residuals

@@ -8,7 +8,7 @@ import random
 import numpy as np
 import pytest
 
-from mbla.results.listing.pushover import energy_missing
+from mbla.results.listing.sections.pushover import energy_missing
 from mbla.results.outcome import ultimate_displacement
 from mbla.results.results import CaseResult
 from mbla.solution.pushover.pushed import CurveEnd

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from mbla.results.listing.pushover import energy_missing
+from mbla.results.listing.sections.pushover import energy_missing
 from mbla.solution.pushover.curve import dropped
 from mbla.solution.pushover.pushed import CurveEnd
 from tests.line import HEAD, case_of

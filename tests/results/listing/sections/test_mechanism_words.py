@@ -11,7 +11,7 @@ from mbla.assembly.assembly import Assembly
 from mbla.contacts.contacts import Contacts
 from mbla.results.collapse.collapse import collapse_of, failure_of
 from mbla.results.listing.blocks import MOST_ROWS
-from mbla.results.listing.mechanism_words import failure_sentences, mechanism_blocks, mechanism_summary
+from mbla.results.listing.sections.mechanism_words import failure_sentences, mechanism_blocks, mechanism_summary
 from mbla.results.listing.text import WIDTH, lines_of
 from mbla.solution.solution import ContactMode, Mechanics
 from mbla.solution.verification.statics import contact_velocities

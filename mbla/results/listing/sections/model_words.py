@@ -12,10 +12,10 @@ from mbla.errors import Notice
 from mbla.model.model import LoadCase, Model
 from mbla.program.reductions.steps import ReductionStep, StepState
 from mbla.results.listing.blocks import Block, Fact, ListingSection, Paragraph, apart, facts, paragraphs, table_of
-from mbla.results.listing.contact_words import contact_section, finding_sections
 from mbla.results.listing.places import label_words
+from mbla.results.listing.sections.contact_words import contact_section, finding_sections
+from mbla.results.listing.sections.tie_words import tie_blocks, tie_title
 from mbla.results.listing.text import WIDTH, counted, lines_of, number, section_lines, sentence, text_of
-from mbla.results.listing.tie_words import tie_blocks, tie_title
 from mbla.results.provenance import CaseNeeds
 from mbla.results.results import Results
 

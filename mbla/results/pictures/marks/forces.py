@@ -10,7 +10,7 @@ import numpy as np
 from mbla.arrays import IntArray
 from mbla.results.collapse.thrust import OUTSIDE
 from mbla.results.listing.text import number
-from mbla.results.pictures.marks import Mark, dots, interface_names, segments
+from mbla.results.pictures.marks.marks import Mark, dots, interface_names, segments
 from mbla.results.pictures.page import HINGE, ORANGE, OTHER_END, PURPLE, RESULTANT, SLIDE, THRUST
 from mbla.results.pictures.scene import Scene
 

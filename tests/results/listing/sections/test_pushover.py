@@ -7,7 +7,7 @@ from dataclasses import replace
 import pytest
 
 from mbla.model import Model
-from mbla.results.listing.pushover import curve_blocks, curve_words, no_curve_words
+from mbla.results.listing.sections.pushover import curve_blocks, curve_words, no_curve_words
 from mbla.results.listing.text import lines_of
 from mbla.results.results import CaseResult
 from tests.line import BLOCK, HEAD, case_of

@@ -7,7 +7,7 @@ import scipy.sparse as sp
 
 from mbla.arrays import FloatArray
 from mbla.solution.linear_algebra.stiffness import Entries
-from mbla.solution.pushover.moved_joints import JointsAt, MovedJoints
+from mbla.solution.pushover.pose.moved_joints import JointsAt, MovedJoints
 
 
 def geometric(joints: MovedJoints, at: JointsAt, normal: FloatArray, shear: FloatArray) -> list[Entries]:

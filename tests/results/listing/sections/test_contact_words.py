@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 
 from mbla.contacts.contacts import ContactReport
-from mbla.results.listing.contact_words import contact_section, finding_sections
+from mbla.results.listing.sections.contact_words import contact_section, finding_sections
 from mbla.results.listing.text import section_lines
 from tests.results.synthetic import empty_report, tower_contacts, tower_model
 

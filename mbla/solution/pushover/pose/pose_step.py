@@ -28,9 +28,9 @@ from mbla.solution.law.exact_law import forces_by_law
 from mbla.solution.law.joint_equations import JointStep, residual_of
 from mbla.solution.law.joint_step import aimed_direction, direction_of, length_of
 from mbla.solution.law.return_map import JointForces, joint_forces, joint_stiffness
-from mbla.solution.pushover.geometric_stiffness import geometric
-from mbla.solution.pushover.moved_joints import History, JointsAt, MovedJoints
-from mbla.solution.pushover.step_states import below_strength, gone_on, on_central_path
+from mbla.solution.pushover.pose.geometric_stiffness import geometric
+from mbla.solution.pushover.pose.moved_joints import History, JointsAt, MovedJoints
+from mbla.solution.pushover.pose.step_states import below_strength, gone_on, on_central_path
 from mbla.solution.thresholds import SOLVED_RESIDUAL
 
 BALANCED, WORKS = 1e-6, 1e-6

@@ -27,9 +27,9 @@ from mbla.program.reductions.steps import ReductionSwitches
 from mbla.program.stiffness_shares import stiffness_through
 from mbla.solution.law.elastic_joints import ElasticJoints
 from mbla.solution.linear_algebra.stiffness import Stiffness
-from mbla.solution.pushover.nearness import Nearness
-from mbla.solution.pushover.structure import PushedStructure
-from mbla.solution.pushover.ties_at_pose import TiesAtPose
+from mbla.solution.pushover.pose.nearness import Nearness
+from mbla.solution.pushover.pose.structure import PushedStructure
+from mbla.solution.pushover.pose.ties_at_pose import TiesAtPose
 
 
 @dataclass(frozen=True)

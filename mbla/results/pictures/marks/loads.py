@@ -19,7 +19,7 @@ from mbla.model.applied_load import AppliedLoad
 from mbla.model.model import LoadCase, Model
 from mbla.questions.reaction import Settlement
 from mbla.questions.travel import TravelPosition
-from mbla.results.pictures.marks import Mark, arrows, dots, rings, segments
+from mbla.results.pictures.marks.marks import Mark, arrows, dots, rings, segments
 from mbla.results.pictures.page import CASES, DEAD_LOAD, LIVE_LOAD
 from mbla.results.pictures.scene import Scene
 from mbla.results.results import CaseResult

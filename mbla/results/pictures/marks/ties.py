@@ -10,7 +10,7 @@ from mbla.arrays import FloatArray, IntArray
 from mbla.model.ties.ties import OUTSIDE, Ties
 from mbla.results.collapse.ties import TieRow, TieState, tie_rows
 from mbla.results.listing.text import number
-from mbla.results.pictures.marks import Mark, segments
+from mbla.results.pictures.marks.marks import Mark, segments
 from mbla.results.pictures.page import GHOST
 from mbla.results.pictures.scene import Scene
 

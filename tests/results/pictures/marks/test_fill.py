@@ -10,7 +10,7 @@ import pytest
 import mbla
 from mbla.results.hdf5.result_file import read_results_hdf5, write_results_hdf5
 from mbla.results.pictures.drawing import drawing_of
-from mbla.results.pictures.fill import fill_marks
+from mbla.results.pictures.marks.fill import fill_marks
 from mbla.results.pictures.options import PictureOptions
 from mbla.results.pictures.scene import scene_of
 from mbla.results.results import Results

@@ -11,7 +11,7 @@ from mbla.contacts.contacts import Contacts
 from mbla.model.pose import Pose
 from mbla.model.ties.moved import tie_lengths
 from mbla.model.ties.ties import Ties
-from mbla.solution.pushover.structure import PushedStructure
+from mbla.solution.pushover.pose.structure import PushedStructure
 
 
 @dataclass(frozen=True)

@@ -10,8 +10,8 @@ import pytest
 from mbla.model.applied_load import AppliedLoad, without_forces
 from mbla.questions.reaction import Settlement
 from mbla.questions.travel import TravelPosition
-from mbla.results.pictures.loads import MANY, arrow_steps, live_marks, marks_of_load, shown_loads
-from mbla.results.pictures.marks import Mark
+from mbla.results.pictures.marks.loads import MANY, arrow_steps, live_marks, marks_of_load, shown_loads
+from mbla.results.pictures.marks.marks import Mark
 from mbla.results.pictures.options import PictureOptions
 from mbla.results.pictures.page import CASES, DEAD_LOAD, LIVE_LOAD
 from mbla.results.pictures.scene import Scene, scene_of

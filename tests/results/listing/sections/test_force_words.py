@@ -1,6 +1,6 @@
 import numpy as np
 
-from mbla.results.listing.forces import lock_blocks
+from mbla.results.listing.sections.forces import lock_blocks
 from mbla.results.listing.text import lines_of
 from tests.results.synthetic import tower_contacts, tower_model
 

@@ -10,7 +10,7 @@ import numpy as np
 from mbla.arrays import BoolArray, IntArray
 from mbla.contacts.contacts import Contacts
 from mbla.results.collapse.interface_modes import InterfaceMode, InterfaceMotion
-from mbla.results.pictures.marks import Mark, arrows, interface_names, outer_rows, rings, segments
+from mbla.results.pictures.marks.marks import Mark, arrows, interface_names, outer_rows, rings, segments
 from mbla.results.pictures.page import CRUSH, HINGE, INK, OPEN, SLIDE
 from mbla.results.pictures.scene import Scene
 
