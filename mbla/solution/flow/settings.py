@@ -10,6 +10,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 
 from mbla.solution.flow.path_record import PathStep
+from mbla.solution.settings import SolverSettings
 
 RATIOS = (0.4, 1.0)
 """Shear over normal stiffness: a structure must stand with both ratios. The first is that of a layer of stone,
@@ -133,9 +134,11 @@ class PathSettings:
         """Whether the time limit has passed."""
         return self.deadline is not None and time.monotonic() > self.deadline
 
-    def by_steps(self, share: float) -> PathSettings:
-        """The same with steps of a share of their length."""
-        return replace(self, first=share * self.first, longest=share * self.longest)
+    @staticmethod
+    def of(settings: SolverSettings) -> PathSettings:
+        """As the deck asks: keys of its section ``path`` are fields of this record."""
+        asked = PathSettings(**vars(settings.analysis.path), deadline=settings.deadline)
+        return replace(asked, first=settings.steps * asked.first, longest=settings.steps * asked.longest)
 
     def seen(self, step: PathStep) -> PathStep:
         """The step, once those who watch have seen it."""

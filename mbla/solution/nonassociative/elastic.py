@@ -8,7 +8,8 @@ from __future__ import annotations
 
 import itertools
 import time
-from dataclasses import replace
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -49,63 +50,115 @@ def solve_by_elastic_path(
     slope      : (n_points,) tangent of the angle by which joints lift as they slide
     interfaces : of the model that have a law of their own
     """
-    live, records = program.scaling.live, list(associative.programs)
-    asked, dilates = settings.analysis.path, slope if np.any(slope) else None
-    wanted = PathSettings(until=asked.until, deadline=settings.deadline).by_steps(settings.steps)
-
-    def along(ratio: float, extent: Extent = WHAT_MOVES) -> PathOfPart:
-        started, number, count = time.perf_counter(), len(records) + 1, itertools.count(1)
-
-        def watch(step: PathStep) -> None:
-            seconds, factor = time.perf_counter() - started, step.load_factor * live
-            log(IterationRecord(number, next(count), factor, np.nan, np.nan, np.nan, step.reach, seconds))
-
-        by = replace(wanted, ratio=ratio, watch=watch)
-        path = path_of_part(program, associative, by, dilates, interfaces, extent=extent)
-        records.append(_record(number, path, live, time.perf_counter() - started))
-        return path
-
-    def state_on(path: PathOfPart) -> CollapseState | None:
-        if path.stop is Stop.AT_ONCE:
-            return state_at_once(program, associative.state, slope, settings, log)
-        return state_of_path(program, path, settings, log, interfaces)
-
-    shown = asked.ratio
-    found, state = path_with_state(program, lambda extent: along(asked.ratio, extent), state_on, interfaces)
-    followed = {shown: found}
-    status, reason = _claim(found, state, live)
-    if status in WITH_VALUE and state is not None and _at_limit(program, found, state, interfaces):
-        status, reason = Status.APPROXIMATE, AT_LIMIT.format(f"{state.load_factor * live:.2g}")
-    if status is Status.UNBOUNDED and not _carries_the_live_load(program):
-        status, reason = Status.NOT_VERIFIED, NOT_ALONE
-    above = np.inf if associative.state is None else associative.state.load_factor
-    if found.stop is not Stop.LATE and status in (*WITH_VALUE, Status.UNBOUNDED):
-        followed |= paths_beside(found, associative, settings.analysis, along)
-        doubtful = may_hang_on_stiffness(found, associative)
-        other = another_answer(followed, shown, NEAR_ZERO * program.dead_over_live, above, doubtful=doubtful)
-        if other is not None:
-            one, two = (f"{followed[ratio].load_factor * live:.6g}" for ratio in (shown, other))
-            reason = HANGS.format(one, f"{shown:g}", two, f"{other:g}")
-            lower = followed[other].load_factor < found.load_factor
-            least = state_on(followed[other]) if lower else None
-            shown, state = (shown, state) if least is None else (other, least)
-            status = Status.NOT_VERIFIED if state is None else Status.APPROXIMATE
-    found = followed[shown]
+    paths = Paths(program, associative, slope, settings, log, interfaces, list(associative.programs))
+    first = settings.analysis.path.ratio
+    found, state = path_with_state(program, lambda extent: paths.follow(first, extent), paths.state_on, interfaces)
+    shown = _other_stiffness(paths, ShownPath({first: found}, first, state, *_judged(paths, found, state)))
+    found, state, status, reason = shown.path, shown.state, shown.status, shown.reason
     value = np.nan if state is None else program.scaling.load_factor(state.load_factor)
-    if status is Status.SOLVED and found.gains(UNENDED, above):
+    if status is Status.SOLVED and found.gains(UNENDED, paths.above):
         status, reason = Status.APPROXIMATE, UNENDED_PATH.format(f"{value:.6g}", 100.0 * found.gain)
     return FlowResult(
         status,
         state,
         reason,
-        tuple(records),
-        remarks=(RISING.format(100.0 * found.gain),) if found.gains(RISES, above) else (),
+        tuple(paths.records),
+        remarks=(RISING.format(100.0 * found.gain),) if found.gains(RISES, paths.above) else (),
         path=_curve(program, found),
         path_end=found.stop.value,
         path_gain=found.gain,
-        path_last=found.moving * live,
-        by_stiffness=load_factors(followed, shown, live, above),
+        path_last=found.moving * program.scaling.live,
+        by_stiffness=load_factors(shown.followed, shown.ratio, program.scaling.live, paths.above),
     )
+
+
+@dataclass(frozen=True)
+class Paths:
+    """Paths of one part.
+
+    slope      : (n_points,) tangent of the angle by which joints lift as they slide
+    interfaces : of the model that have a law of their own
+    records    : of programs so far, to which each path adds its own
+    """
+
+    program: Program
+    associative: AssociativeResult
+    slope: FloatArray
+    settings: SolverSettings
+    log: Log
+    interfaces: Interfaces
+    records: list[ProgramRecord]
+
+    @property
+    def above(self) -> float:
+        """Load factor of associative flow, which none exceeds; inf without."""
+        return np.inf if self.associative.state is None else self.associative.state.load_factor
+
+    def follow(self, ratio: float, extent: Extent = WHAT_MOVES) -> PathOfPart:
+        """The path of joints of a ratio of stiffness."""
+        live, number, count = self.program.scaling.live, len(self.records) + 1, itertools.count(1)
+        started = time.perf_counter()
+
+        def watch(step: PathStep) -> None:
+            seconds, factor = time.perf_counter() - started, step.load_factor * live
+            self.log(IterationRecord(number, next(count), factor, np.nan, np.nan, np.nan, step.reach, seconds))
+
+        by = replace(PathSettings.of(self.settings), ratio=ratio, watch=watch)
+        dilates = self.slope if np.any(self.slope) else None
+        path = path_of_part(self.program, self.associative, by, dilates, self.interfaces, extent=extent)
+        self.records.append(_record(number, path, live, time.perf_counter() - started))
+        return path
+
+    def state_on(self, path: PathOfPart) -> CollapseState | None:
+        """The state at the greatest load of a path."""
+        if path.stop is Stop.AT_ONCE:
+            return state_at_once(self.program, self.associative.state, self.slope, self.settings, self.log)
+        return state_of_path(self.program, path, self.settings, self.log, self.interfaces)
+
+
+@dataclass(frozen=True)
+class ShownPath:
+    """The path whose state is shown, among those that were followed, by ratio of stiffness."""
+
+    followed: Mapping[float, PathOfPart]
+    ratio: float
+    state: CollapseState | None
+    status: Status
+    reason: str
+
+    @property
+    def path(self) -> PathOfPart:
+        """The one that is shown."""
+        return self.followed[self.ratio]
+
+
+def _judged(paths: Paths, found: PathOfPart, state: CollapseState | None) -> tuple[Status, str]:
+    """Status and reason, in words, by the path alone."""
+    program = paths.program
+    status, reason = _claim(found, state, program.scaling.live)
+    if status in WITH_VALUE and state is not None and _at_limit(program, found, state, paths.interfaces):
+        return Status.APPROXIMATE, AT_LIMIT.format(f"{state.load_factor * program.scaling.live:.2g}")
+    if status is Status.UNBOUNDED and not _carries_the_live_load(program):
+        return Status.NOT_VERIFIED, NOT_ALONE
+    return status, reason
+
+
+def _other_stiffness(paths: Paths, shown: ShownPath) -> ShownPath:
+    """Held against joints of other stiffnesses; where these decide, the path of the least load factor is shown."""
+    found, associative, scaling = shown.path, paths.associative, paths.program.scaling
+    if found.stop is Stop.LATE or shown.status not in (*WITH_VALUE, Status.UNBOUNDED):
+        return shown
+    followed = {**shown.followed, **paths_beside(found, associative, paths.settings.analysis, paths.follow)}
+    nothing, doubtful = NEAR_ZERO * paths.program.dead_over_live, may_hang_on_stiffness(found, associative)
+    other = another_answer(followed, shown.ratio, nothing, paths.above, doubtful=doubtful)
+    if other is None:
+        return replace(shown, followed=followed)
+    one, two = (f"{followed[ratio].load_factor * scaling.live:.6g}" for ratio in (shown.ratio, other))
+    reason = HANGS.format(one, f"{shown.ratio:g}", two, f"{other:g}")
+    lower = followed[other].load_factor < found.load_factor
+    least = paths.state_on(followed[other]) if lower else None
+    ratio, state = (shown.ratio, shown.state) if least is None else (other, least)
+    return ShownPath(followed, ratio, state, Status.NOT_VERIFIED if state is None else Status.APPROXIMATE, reason)
 
 
 def _record(number: int, path: PathOfPart, live: float, seconds: float) -> ProgramRecord:

@@ -7,7 +7,7 @@ how much of the load factor hangs on that.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from mbla.program.program import Program
 from mbla.program.resultants.twisting_interfaces import twisting_of
@@ -39,8 +39,7 @@ def solve_with_torsion(
     """
     if interfaces.twisting is None or twisting_of(program, interfaces.twisting) is None:
         return None
-    asked = settings.analysis.path
-    wanted = PathSettings(ratio=asked.ratio, until=asked.until, deadline=settings.deadline, again=False)
+    wanted = replace(PathSettings.of(settings), again=False)
     found, state = path_with_state(
         program,
         lambda extent: path_of_part(program, associative, wanted, interfaces=interfaces, extent=extent),

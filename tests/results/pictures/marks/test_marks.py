@@ -8,9 +8,10 @@ from typing import Any
 import numpy as np
 import pytest
 
+from mbla.results.pictures.marks import forces
 from mbla.results.pictures.marks.forces import force_marks
 from mbla.results.pictures.marks.joints import THIN, interface_sides, joint_marks
-from mbla.results.pictures.marks.marks import Mark, arrows, forces, moved, rings, segments
+from mbla.results.pictures.marks.marks import Mark, arrows, moved, rings, segments
 from mbla.results.pictures.options import PictureOptions
 from mbla.results.pictures.scene import Scene, scene_of
 from mbla.results.results import Results
