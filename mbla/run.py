@@ -244,17 +244,17 @@ def _pushed(
     tell: Tell[CaseResult],
 ) -> CaseResult:
     """A load case with its pushover."""
-    from mbla.solution.pushover.curve import Found, pushed  # late: few load cases are
+    from mbla.solution.pushover.push import PushoverResult, push  # late: few load cases are
 
-    def beside(found: Found) -> CaseResult:
+    def beside(found: PushoverResult) -> CaseResult:
         pushover, remarks = found
         return case.with_further(replace(case.solution.further, pushover=pushover), remarks)
 
-    def so_far(make: Callable[[], Found]) -> None:
+    def so_far(make: Callable[[], PushoverResult]) -> None:
         tell(lambda: _finished(assembly, beside(make())))
 
     solved = case.status is Status.SOLVED
-    return beside(pushed(assembly, deck.contacts, case.load_case, case.solution, settings, log, solved, so_far))
+    return beside(push(assembly, deck.contacts, case.load_case, case.solution, settings, log, solved, so_far))
 
 
 def _finished(assembly: Assembly, case: CaseResult) -> CaseResult:

@@ -79,7 +79,7 @@ GIVEN_TO_IT = {
     "solution/thresholds.py": "what counts as solved",
     "solution/full_model/lifted.py": "the claim on rigid bodies",
     "solution/full_model/contact_modes.py": "modes, of which none is judged",
-    "solution/pushover/pushed.py": "rows of a curve and why it ends",
+    "solution/pushover/curve_rows.py": "rows of a curve and why it ends",
     "solution/pushover/record.py": "rows of a pushover",
     "solution/further/further.py": "the claim of further results",
     "solution/further/geometric_safety/geometric_safety.py": "the claim of a factor of safety",

@@ -22,9 +22,9 @@ from mbla.deck import read_deck
 from mbla.model import build_model
 from mbla.program.build import build_program
 from mbla.solution.pushover.control import Control
-from mbla.solution.pushover.curve import start_of
 from mbla.solution.pushover.place import Row
 from mbla.solution.pushover.pose.structure import PushedStructure
+from mbla.solution.pushover.start import start_of
 from mbla.solution.pushover.way import Way
 from mbla.solution.settings import solver_settings
 from mbla.solution.solve import solve

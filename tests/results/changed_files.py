@@ -14,7 +14,7 @@ from mbla.process.run_options import RunOptions
 from mbla.results.hdf5.result_file import write_results_hdf5
 from mbla.results.results import CaseResult, Results
 from mbla.run import run
-from mbla.solution.pushover.pushed import CurveRow
+from mbla.solution.pushover.curve_rows import CurveRow
 
 
 @contextlib.contextmanager

@@ -31,7 +31,7 @@ from mbla.results.results import CaseResult, DeckRecord, Results
 from mbla.solution.further.further import Further
 from mbla.solution.further.geometric_safety.geometric_safety import GeometricSafety
 from mbla.solution.further.sensitivity.slopes import Side, Slope
-from mbla.solution.pushover.pushed import CurveEnd, CurveRow
+from mbla.solution.pushover.curve_rows import CurveEnd, CurveRow
 from mbla.solution.pushover.pushover import Pushover
 from mbla.solution.pushover.record import PushedRows, RowPoints
 from mbla.solution.solution import (

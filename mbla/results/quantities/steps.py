@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from mbla.results.quantities.group import Field, Group
 from mbla.results.record.scene import Scene
-from mbla.solution.pushover.pushed import CurveRow
+from mbla.solution.pushover.curve_rows import CurveRow
 from mbla.solution.pushover.pushover import Pushover
 from mbla.solution.pushover.record import PushedRows, RowPoints
 

@@ -19,7 +19,7 @@ from mbla.results.record.objects import Item, Object
 from mbla.results.record.scene import Scene
 from mbla.solution.further.geometric_safety.geometric_safety import GeometricSafety
 from mbla.solution.further.sensitivity.slopes import Slope
-from mbla.solution.pushover.pushed import CurveRow
+from mbla.solution.pushover.curve_rows import CurveRow
 from mbla.solution.solution import PathByStiffness, PathPoint
 
 REACTION, BEST, STANDING, SOLVER, SIZE = (

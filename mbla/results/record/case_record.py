@@ -33,7 +33,7 @@ from mbla.results.record.objects import Object
 from mbla.results.record.scene import Scene
 from mbla.results.results import CaseResult
 from mbla.solution.further.sensitivity.slopes import Slope
-from mbla.solution.pushover.pushed import CurveRow
+from mbla.solution.pushover.curve_rows import CurveRow
 from mbla.solution.solution import PathByStiffness, PathPoint
 from mbla.solution.verification.statics import power
 

@@ -23,7 +23,7 @@ from mbla.solution.flow.path_record import Stop
 from mbla.solution.flow.settings import RATIOS, ratios_beside, second_ratio
 from mbla.solution.further.geometric_safety.find import why_no_geometric_safety
 from mbla.solution.nonassociative.by_stiffness import same
-from mbla.solution.pushover.pushed import CurveEnd
+from mbla.solution.pushover.curve_rows import CurveEnd
 from mbla.solution.settings import settings_for, solver_settings
 from mbla.solution.solution import Mechanics, Solution, Status
 from mbla.solution.verification.verify import locked_with_normality

@@ -13,10 +13,10 @@ import numpy as np
 from mbla.assembly.assembly import Assembly
 from mbla.deck import Deck
 from mbla.results.results import CaseResult
-from mbla.solution.pushover.curve import why_not_pushed
+from mbla.solution.pushover.curve_rows import CurveEnd
 from mbla.solution.pushover.ends import SHOWN, end_failure, gaps
-from mbla.solution.pushover.pushed import CurveEnd
 from mbla.solution.pushover.record import PushedRows
+from mbla.solution.pushover.start import why_not_pushed
 from mbla.solution.solution import Status
 from mbla.solution.verification.row_energies import energy_failure, energy_lost
 from mbla.solution.verification.row_laws import row_of_another_law

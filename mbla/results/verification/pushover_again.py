@@ -18,9 +18,9 @@ from mbla.model import Model
 from mbla.results.listing.history_words import pushover_words
 from mbla.results.results import CaseResult, PushoverAgain
 from mbla.results.verification.asked import Found
-from mbla.solution.pushover.curve import pushed
+from mbla.solution.pushover.curve_rows import CurveEnd
 from mbla.solution.pushover.followed import greatest_value
-from mbla.solution.pushover.pushed import CurveEnd
+from mbla.solution.pushover.push import push
 from mbla.solution.pushover.pushover import Pushover
 from mbla.solution.settings import settings_for, solver_settings
 from mbla.solution.solution import Status
@@ -47,7 +47,7 @@ def pushover_again(deck: Deck, assembly: Assembly, case: CaseResult) -> Pushover
         asked = replace(load_case.pushover, steps=len(own.curve) - 1, error=False)
         load_case = replace(load_case, pushover=asked)
     settings = replace(settings_for(load_case, solver_settings(deck.analysis)), deadline=None)
-    again, _ = pushed(assembly, deck.contacts, load_case, case.solution, settings, lambda record: None, solved=True)
+    again, _ = push(assembly, deck.contacts, load_case, case.solution, settings, lambda record: None, solved=True)
     return None if again.rows is None else _beside(case, again)
 
 

@@ -20,7 +20,8 @@ from mbla.results.results import CaseResult
 from mbla.results.verification.asked import by_normality
 from mbla.solution.further.geometric_safety.find import no_geometric_safety, why_no_geometric_safety
 from mbla.solution.further.sensitivity.sensitivity import no_sensitivity, why_no_sensitivity
-from mbla.solution.pushover.curve import no_pushover, pushover_remarks, why_not_pushed
+from mbla.solution.pushover.curve import pushover_remarks
+from mbla.solution.pushover.start import no_pushover, why_not_pushed
 from mbla.solution.sequence.tilting_table import NOT_PROVED_BETWEEN
 from mbla.solution.solution import WITH_VALUE, Solution, Status
 from mbla.solution.verification.tilting_table import GOOD

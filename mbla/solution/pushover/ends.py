@@ -11,7 +11,7 @@ from collections.abc import Iterator, Sequence
 from itertools import pairwise
 
 from mbla.model.model import LoadCase
-from mbla.solution.pushover.pushed import CurveEnd, CurveRow
+from mbla.solution.pushover.curve_rows import CurveEnd, CurveRow
 
 ROUNDING = 2e-6
 """of the displacement asked for and of the load factor at first, within which it is reached, and nothing is left"""

@@ -13,7 +13,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.model.model import LoadCase
-from mbla.solution.pushover.pushed import CurveEnd
+from mbla.solution.pushover.curve_rows import CurveEnd
 from mbla.solution.pushover.pushover import Pushover
 
 STEP_DEPENDENCE = 0.02

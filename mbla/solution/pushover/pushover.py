@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field
 
-from mbla.solution.pushover.pushed import CurveEnd, CurveRow
+from mbla.solution.pushover.curve_rows import CurveEnd, CurveRow
 from mbla.solution.pushover.record import PushedRows
 
 

@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from mbla.solution.pushover.curve_rows import CurveEnd
 from mbla.solution.pushover.place import Place, Row
 from mbla.solution.pushover.pose.pose_step import PoseStep, Smoothed
-from mbla.solution.pushover.pushed import CurveEnd
 
 if TYPE_CHECKING:
     from mbla.solution.pushover.way import Way

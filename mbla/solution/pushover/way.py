@@ -23,12 +23,12 @@ from mbla.model.pose import Pose
 from mbla.model.ties.moved import TieHistory
 from mbla.solution.flow.unit_of_displacement import elastic_motion
 from mbla.solution.pushover.control import MOVES, Control
+from mbla.solution.pushover.curve_rows import CurveEnd
 from mbla.solution.pushover.jump import jump
 from mbla.solution.pushover.place import Energy, Place, Row, place_after, row_after
 from mbla.solution.pushover.pose.moved_joints import History, MovedJoints
 from mbla.solution.pushover.pose.pose_step import PoseStep, Smoothed, greatest_motion, turned_on
 from mbla.solution.pushover.pose.structure import PushedStructure
-from mbla.solution.pushover.pushed import CurveEnd
 from mbla.solution.pushover.renewal import renewed
 from mbla.solution.pushover.rows_of_way import RowsOfWay
 from mbla.solution.solution import Mechanics

@@ -13,8 +13,8 @@ from mbla.deck import read_deck
 from mbla.model import build_model
 from mbla.program.build import build_program
 from mbla.results.listing.sections.pushover import energy_missing
-from mbla.solution.pushover.curve import Found, pushed
-from mbla.solution.pushover.pushed import CurveEnd, CurveRow
+from mbla.solution.pushover.curve_rows import CurveEnd, CurveRow
+from mbla.solution.pushover.push import PushoverResult, push
 from mbla.solution.pushover.pushover import Pushover
 from mbla.solution.settings import solver_settings
 from mbla.solution.solve import solve
@@ -26,13 +26,13 @@ ARCH = DECKS / "tutorials" / "arch.yaml"
 WALL_1 = DECKS / "benchmarks" / "published" / "ferris_wall_1.yaml"
 
 
-def pushed_case(path: Path, *overrides: str) -> Found:
+def pushed_case(path: Path, *overrides: str) -> PushoverResult:
     """The capacity curve of the first load case of a deck, and remarks on it."""
     deck = read_deck(path, overrides)
     model = build_model(deck)
     assembly, case, settings = build_assembly(deck, model), model.load_cases[0], solver_settings(deck.analysis)
     solution = solve(build_program(assembly, case, deck.analysis), settings)
-    return pushed(assembly, deck.contacts, case, solution, settings, lambda record: None, solved=True)
+    return push(assembly, deck.contacts, case, solution, settings, lambda record: None, solved=True)
 
 
 def pushover_of(path: Path, *overrides: str) -> Pushover:

@@ -10,7 +10,7 @@ import pytest
 
 from mbla.results.listing.sections.pushover import energy_missing
 from mbla.solution.pushover.curve import dropped
-from mbla.solution.pushover.pushed import CurveEnd
+from mbla.solution.pushover.curve_rows import CurveEnd
 from mbla.solution.verification.pushed_rows import row_residuals
 from tests.line import HEAD, case_of, cases_of
 

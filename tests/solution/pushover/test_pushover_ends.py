@@ -7,8 +7,8 @@ from dataclasses import replace
 import pytest
 
 from mbla.model.model import LoadCase
+from mbla.solution.pushover.curve_rows import CurveEnd, CurveRow
 from mbla.solution.pushover.ends import end_failure, end_shown
-from mbla.solution.pushover.pushed import CurveEnd, CurveRow
 from tests.line import BLOCK, line_of
 
 NAN = float("nan")

@@ -11,7 +11,7 @@ import pytest
 from mbla.results.listing.sections.pushover import energy_missing
 from mbla.results.outcome import ultimate_displacement
 from mbla.results.results import CaseResult
-from mbla.solution.pushover.pushed import CurveEnd
+from mbla.solution.pushover.curve_rows import CurveEnd
 from mbla.solution.solution import Status
 from tests.line import case_of
 from tests.solution.pushover.test_pushover import DECKS, columns

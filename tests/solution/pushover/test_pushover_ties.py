@@ -7,7 +7,7 @@ import pytest
 
 from mbla.results.listing.sections.pushover import energy_missing
 from mbla.solution.pushover.curve import dropped
-from mbla.solution.pushover.pushed import CurveEnd
+from mbla.solution.pushover.curve_rows import CurveEnd
 from tests.line import HEAD, case_of
 
 DECK = (

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from mbla.results.results import CaseResult
-from mbla.solution.pushover.pushed import CurveEnd
+from mbla.solution.pushover.curve_rows import CurveEnd
 from mbla.solution.verification.pushed_rows import row_residuals
 from tests.line import HEAD, case_of, cases_of
 

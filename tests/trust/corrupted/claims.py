@@ -21,7 +21,7 @@ from mbla.results.hdf5.result_file import write_results_hdf5
 from mbla.results.results import CaseResult, Results
 from mbla.run import run
 from mbla.solution.further.further import Further
-from mbla.solution.pushover.pushed import CurveEnd
+from mbla.solution.pushover.curve_rows import CurveEnd
 from mbla.solution.pushover.pushover import NOT_PUSHED, Pushover
 from mbla.solution.pushover.record import PushedRows, RowPoints
 from mbla.solution.solution import Mechanics, Solution

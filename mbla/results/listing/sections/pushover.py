@@ -14,8 +14,8 @@ from mbla.results.listing.text import counted, full_sentence, number, small, wit
 from mbla.results.listing.verdict_words import load_factor_words
 from mbla.results.outcome import curve_residual, ultimate_displacement
 from mbla.results.results import CaseResult
+from mbla.solution.pushover.curve_rows import CurveEnd, CurveRow
 from mbla.solution.pushover.followed import STEP_DEPENDENCE, step_dependence
-from mbla.solution.pushover.pushed import CurveEnd, CurveRow
 from mbla.solution.thresholds import APPROXIMATE_RESIDUAL, SOLVED_RESIDUAL
 
 NOTABLE_MISS = 0.02
