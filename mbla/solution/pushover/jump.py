@@ -15,6 +15,7 @@ from mbla.arrays import BoolArray, FloatArray
 from mbla.solution.pushover.place import Place, place_after
 from mbla.solution.pushover.pose.moved_joints import MovedJoints
 from mbla.solution.pushover.pose.pose_step import PoseStep, greatest_motion, turned_on
+from mbla.solution.pushover.pose.smoothed_step import smoothed
 from mbla.solution.pushover.renewal import renewed
 
 FIRST, LEAST, LONGER, SHORTER, STEPS = 0.01, 1e-6, 1.5, 0.25, 400
@@ -59,7 +60,7 @@ def jump(place: Place, work: float, kappa: float, is_over: Callable[[BoolArray],
             return Jump(here, spent)
         held = GRAVITY / length * _masses(joints)
         step = PoseStep(joints, here.history, here.at, here.factor / joints.full.scaling.live, led, held=held)
-        found = step.smoothed(turned_on(here.twists, share), here.state, share, kappa)
+        found = smoothed(step, turned_on(here.twists, share), here.state, share, kappa)
         spent += step.spent
         if found is None:
             length, share, failed = length * SHORTER, share * SHORTER, failed + 1

@@ -12,7 +12,9 @@ from mbla.model.pose import Pose
 from mbla.model.ties.moved import TieHistory
 from mbla.solution.law.elastic_joints import StepState
 from mbla.solution.pushover.pose.moved_joints import History, JointsAt, MovedJoints
-from mbla.solution.pushover.pose.pose_step import Found, PoseStep, Smoothed
+from mbla.solution.pushover.pose.pose_step import PoseStep
+from mbla.solution.pushover.pose.smoothed_step import Smoothed
+from mbla.solution.pushover.pose.solved_step import SolvedPose
 
 
 @dataclass(frozen=True)
@@ -118,7 +120,7 @@ def place_after(step: PoseStep, found: Smoothed, before: Place) -> Place:
     return Place(found.at, joints, history, state, factor, twists, step.work, ties, energy)
 
 
-def row_after(step: PoseStep, found: Found, before: Place) -> Row:
+def row_after(step: PoseStep, found: SolvedPose, before: Place) -> Row:
     """The row of a step that is solved."""
     joints, pose = step.joints, found.at.pose
     end = np.vstack([found.forces.normal[None], found.forces.shear])

@@ -14,7 +14,8 @@ import numpy as np
 
 from mbla.solution.pushover.curve_rows import CurveEnd
 from mbla.solution.pushover.place import Place, Row
-from mbla.solution.pushover.pose.pose_step import PoseStep, Smoothed
+from mbla.solution.pushover.pose.pose_step import PoseStep
+from mbla.solution.pushover.pose.smoothed_step import Smoothed
 
 if TYPE_CHECKING:
     from mbla.solution.pushover.way import Way

@@ -27,7 +27,9 @@ from mbla.solution.pushover.curve_rows import CurveEnd
 from mbla.solution.pushover.jump import jump
 from mbla.solution.pushover.place import Energy, Place, Row, place_after, row_after
 from mbla.solution.pushover.pose.moved_joints import History, MovedJoints
-from mbla.solution.pushover.pose.pose_step import PoseStep, Smoothed, greatest_motion, turned_on
+from mbla.solution.pushover.pose.pose_step import PoseStep, greatest_motion, turned_on
+from mbla.solution.pushover.pose.smoothed_step import Smoothed, smoothed
+from mbla.solution.pushover.pose.solved_step import solved
 from mbla.solution.pushover.pose.structure import PushedStructure
 from mbla.solution.pushover.renewal import renewed
 from mbla.solution.pushover.rows_of_way import RowsOfWay
@@ -204,7 +206,7 @@ class Way:
         history = History(np.zeros((joints.components, joints.n_points)), slips)
         at = joints.there(pose, 0.0)
         step = PoseStep(joints, history, at, 0.0, 0.0, driven=self.settles)
-        found = step.solved()
+        found = solved(step)
         self.spent += step.spent
         if found is None or not found.solved:
             return None
@@ -228,9 +230,9 @@ class Way:
     def row(self, step: PoseStep, found: Smoothed, place: Place) -> Row | None:
         """The step from a place solved from a smoothed one; None where that is not found."""
         sharp = replace(step, spent=0)
-        solved = sharp.solved(found)
+        row = solved(sharp, found)
         self.spent += sharp.spent
-        return None if solved is None or not solved.fit else row_after(sharp, solved, place)
+        return None if row is None or not row.fit else row_after(sharp, row, place)
 
     def is_over(self, fallen: BoolArray) -> bool:
         """Whether too much has fallen, (n_solids,): of the control point, or of the blocks on a settling support."""
@@ -267,7 +269,7 @@ class Way:
         step = PoseStep(joints, place.history, place.at, place.factor / joints.full.scaling.live, work)
         share = work / place.work if place.work else 0.0
         anew = attempts.tries >= SHARP
-        found = step.smoothed(turned_on(place.twists, share), place.state, share, self.kappa, anew=anew)
+        found = smoothed(step, turned_on(place.twists, share), place.state, share, self.kappa, anew=anew)
         self.spent += step.spent
         return step, found
 
