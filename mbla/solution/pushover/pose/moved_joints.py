@@ -1,7 +1,6 @@
 """Elastic joints of a structure at any pose: one pattern from one search for contacts to the next.
 
-A and the loads are those of the pose; the ways of the reductions, u = S q and x = P y, stay. Every entry of SᵀA P is a
-fixed sum of entries of A, so that a new pose costs the geometry of its points and one product.
+A and the loads are those of the pose; the ways of the reductions stay.
 """
 
 from __future__ import annotations
@@ -13,6 +12,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
+from mbla.assembly.rigid_bodies import RigidBodies
 from mbla.assembly.ties import with_ties
 from mbla.contacts.carried import Placed, Touching
 from mbla.contacts.contacts import Contacts
@@ -27,6 +27,7 @@ from mbla.program.reductions.steps import ReductionSwitches
 from mbla.program.stiffness_shares import stiffness_through
 from mbla.solution.law.elastic_joints import ElasticJoints
 from mbla.solution.linear_algebra.stiffness import Stiffness
+from mbla.solution.pushover.pose.matrix_at_pose import MatrixAtPose
 from mbla.solution.pushover.pose.nearness import Nearness
 from mbla.solution.pushover.pose.structure import PushedStructure
 from mbla.solution.pushover.pose.ties_at_pose import TiesAtPose
@@ -115,12 +116,8 @@ class MovedJoints:
         if before is not None and before[0]._joints.dilates:
             opened = float((before[0].opened(before[1]) / before[0].touching.sizes).max(initial=0.0))
         touching = structure.touching(pose, fallen, None if old is None else old.touching, opened)
-        solids = structure.solids_at(pose, touching.contacts)
-        there = structure.ties_at(pose)
         rows = np.flatnonzero(~broken)
-        left = replace(there, prestress=np.zeros(len(there))).take(rows)
-        model = replace(solids.model, fixed=solids.model.fixed | fallen, ties=left, load_cases=())
-        solids = with_ties(replace(solids, model=model))
+        solids = _tied(structure, pose, touching, fallen, rows)
         dead, live, _ = structure.loads_at(pose, fallen, 0.0)
         loads = replace(structure.case, dead_load=dead, live_load=live)
         full = assemble(solids.model, solids.contacts, loads, own=False).full  # guides come last
@@ -150,6 +147,10 @@ class MovedJoints:
         return TiesAtPose.of(self.structure, self.contacts, self.ties, self.row_of_solid)
 
     @cached_property
+    def _matrix(self) -> MatrixAtPose:
+        return MatrixAtPose(self.touching.points.bodies, self.row_of_solid, self._of_ties, self.full, self.reduced)
+
+    @cached_property
     def is_tie(self) -> BoolArray:
         """Which points of the program are ties, (n_points,)."""
         own = np.repeat(self.contacts.tie_points.astype(np.float64), 3)
@@ -175,8 +176,7 @@ class MovedJoints:
         """The joints at a pose, with loads for a load factor of the program."""
         placed, ties = self.touching.points.at(pose), self._of_ties.at(pose)
         centres = self.structure.solids.model.blocks.centroids + pose.shift
-        data = self._map @ np.concatenate([self._entries(placed, centres), self._of_ties.entries(ties, centres)])
-        matrix = self._matrix(data)
+        matrix = self._stiffness(self._matrix.entries(placed, ties, centres))
         row, scaling = self.full.scaling.row, self.full.scaling
         load_factor = scaling.load_factor(factor)
         dead, live, change = self.structure.loads_at(pose, self.fallen, load_factor)
@@ -237,74 +237,13 @@ class MovedJoints:
         return number
 
     @cached_property
-    def _sides(self) -> list[tuple[IntArray, float, IntArray]]:
-        """Points of the surfaces with a free body on each side: their numbers, sign and bodies."""
-        bodies, number = self.touching.points.bodies, self.row_of_solid
-        found = []
-        for side, sign in ((0, -1.0), (1, 1.0)):
-            on = np.flatnonzero(number[bodies[:, side]] >= 0)
-            found.append((on, sign, np.asarray(bodies[on, side])))
-        return found
-
-    def _entries(self, placed: Placed, centres: FloatArray) -> FloatArray:
-        """Of A of the surfaces, six rows of each of three components of each point, side by side."""
-        values = []
-        for on, sign, body in self._sides:
-            force = sign * placed.frames[on]
-            arm = (placed.points[on] - centres[body])[:, None, :]
-            values.append(np.concatenate([force, _crossed(arm, force)], axis=2).ravel())
-        return np.concatenate(values)
-
-    @cached_property
-    def _places(self) -> tuple[IntArray, IntArray]:
-        """Rows and columns of the full A of all entries, in their order."""
-        rows, columns = [], []
-        for on, _, body in self._sides:
-            shape = (len(on), 3, 6)
-            rows.append(np.broadcast_to((6 * self.row_of_solid[body])[:, None, None] + np.arange(6), shape).ravel())
-            columns.append(np.broadcast_to((3 * on[:, None] + np.arange(3))[:, :, None], shape).ravel())
-        if self.contacts.ties is not None:
-            places, bodies = self._of_ties.places, self._of_ties.bodies
-            tie = self._of_ties.built.tie_of_point[places]
-            rows.append((6 * self.row_of_solid[bodies][:, None] + np.arange(6)).ravel())
-            columns.append(np.repeat(3 * (len(self.touching.points.bodies) + tie), 6))
-        return np.concatenate(rows), np.concatenate(columns)
-
-    @cached_property
-    def _pattern(self) -> tuple[sp.csr_array, IntArray, sp.csr_array]:
-        """Rows and columns of Aᵀ of the program that is solved, by rows, and its entries from those of the full A."""
-        row, column = self._places
-        velocities, forces = self.ways
-        of_row, of_column = np.diff(velocities.indptr)[row], np.diff(forces.indptr)[column]
-        entry = np.repeat(np.arange(len(row)), of_row * of_column)
-        within = np.arange(len(entry)) - np.repeat(
-            np.cumsum(of_row * of_column) - of_row * of_column, of_row * of_column
-        )
-        first = velocities.indptr[row[entry]] + within // of_column[entry]
-        second = forces.indptr[column[entry]] + within % of_column[entry]
-        value = velocities.data[first] * forces.data[second]
-        value = value * self.full.scaling.row[row[entry]] * self.full.scaling.force
-        n = len(self.reduced.dead_load)
-        keys = forces.indices[second].astype(np.int64) * n + velocities.indices[first]
-        every, place = np.unique(keys, return_inverse=True)
-        summing = sp.csr_array(sp.coo_array((value, (place.ravel(), entry)), shape=(len(every), len(row))))
-        shape = (self.components * self.n_points, n)
-        numbered = sp.coo_array((np.arange(1.0, len(every) + 1.0), (every // n, every % n)), shape=shape)
-        return sp.csr_array(numbered), every, summing
-
-    @property
-    def _map(self) -> sp.csr_array:
-        return self._pattern[2]
-
-    @cached_property
     def _joints(self) -> ElasticJoints:
         """Joints of the numbered pattern."""
-        numbered = self._pattern[0]
-        program = replace(self.reduced, equilibrium_matrix=sp.csr_array(numbered.T))
+        program = replace(self.reduced, equilibrium_matrix=sp.csr_array(self._matrix.numbered.T))
         dilatancy = program.limits.dilatancy_by(self.structure.flow_rule)
         return ElasticJoints.of(program, self.shares, self.ratio, dilatancy)
 
-    def _matrix(self, data: FloatArray) -> Stiffness:
+    def _stiffness(self, data: FloatArray) -> Stiffness:
         """Pattern of K with A of a pose: its entries where those of the numbered pattern are."""
         pattern = self._joints.matrix
         values = np.concatenate([[0.0], data])
@@ -327,12 +266,13 @@ class MovedJoints:
         return np.asarray(matrix.multiply(matrix).sum(axis=1))
 
 
+def _tied(structure: PushedStructure, pose: Pose, touching: Touching, fallen: BoolArray, rows: IntArray) -> RigidBodies:
+    """Solids at a pose, debris fixed, with some of the ties of the model, without prestress."""
+    solids, ties = structure.solids_at(pose, touching.contacts), structure.ties_at(pose)
+    left = replace(ties, prestress=np.zeros(len(ties))).take(rows)
+    model = replace(solids.model, fixed=solids.model.fixed | fallen, ties=left, load_cases=())
+    return with_ties(replace(solids, model=model))
+
+
 SWITCHES = ReductionSwitches(on=True, mirror=True, points=False)
 """Planes, and halves about planes that the deck gives."""
-
-
-def _crossed(first: FloatArray, second: FloatArray) -> FloatArray:
-    """Cross products along the last axis; numpy's takes five times as long."""
-    a, b = first, second
-    parts = [a[..., i] * b[..., j] - a[..., j] * b[..., i] for i, j in ((1, 2), (2, 0), (0, 1))]
-    return np.stack(parts, axis=-1)
