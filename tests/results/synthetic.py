@@ -21,7 +21,7 @@ from mbla.model.guides import Guides
 from mbla.model.model import Ground, Joint, LoadCase, Model, Pushing
 from mbla.model.solids.blocks import Blocks, labels_of
 from mbla.model.ties.ties import Ties
-from mbla.program.reductions import ProgramSize, ReductionStep, StepState
+from mbla.program.reductions import ProgramSize, ReductionOutcome, ReductionStep
 from mbla.questions.force import Objective
 from mbla.questions.reaction import Settlement
 from mbla.questions.tilt import Tilt
@@ -52,7 +52,7 @@ BOX_FACES = np.array(
     [[0, 3, 2, 1], [4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7]], dtype=np.int64
 )
 TOWER_WEIGHT = 10.0
-STEP = ReductionStep("parts", StepState.APPLIED, 2, ProgramSize(12, 8, 80, 12), ProgramSize(12, 8, 80, 6))
+STEP = ReductionStep("parts", ReductionOutcome.APPLIED, 2, ProgramSize(12, 8, 80, 12), ProgramSize(12, 8, 80, 6))
 G = 9.81
 SHEET = np.array([[9.0, 0, 0], [9.0, 1, 0], [9.0, 1, 3], [9.0, 0, 3]])[::-1]
 """a surface at x = 9, seen from smaller x"""

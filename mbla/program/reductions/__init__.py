@@ -1,14 +1,14 @@
 """Reductions: planar, mirrored and separate parts found by themselves, with the exact way back to the full model."""
 
 from mbla.program.reductions.reduce import Reduced, reduce_program, unreduced
-from mbla.program.reductions.steps import ModelSize, ProgramSize, ReductionStep, StepState, allowed_reductions
+from mbla.program.reductions.steps import ModelSize, ProgramSize, ReductionOutcome, ReductionStep, allowed_reductions
 
 __all__ = [
     "ModelSize",
     "ProgramSize",
     "Reduced",
+    "ReductionOutcome",
     "ReductionStep",
-    "StepState",
     "allowed_reductions",
     "reduce_program",
     "unreduced",

@@ -20,14 +20,14 @@ from mbla.arrays import FloatArray, IntArray
 from mbla.program.lift import Lift
 from mbla.program.program import Program
 from mbla.program.reductions.restrict import block_matrix, chosen_limits, restricted
-from mbla.program.reductions.scene import SYMMETRIC, Scene
+from mbla.program.reductions.scene import SYMMETRIC, ProgramGeometry
 
 FEW = 1000
 """Points of which all distances are compared: loading scipy's tree of points takes longer."""
 
 
 @dataclass(frozen=True)
-class Mirror:
+class MirrorPlane:
     """One plane of symmetry.
 
     normal        : (3,) unit
@@ -49,7 +49,7 @@ class Mirror:
         return len(pairs) == len(np.unique(interfaces))
 
 
-def mirror_candidates(scene: Scene) -> Iterator[FloatArray]:
+def mirror_candidates(scene: ProgramGeometry) -> Iterator[FloatArray]:
     """Unit normals, (3,) each, that a mirror plane could have, the likely ones first.
 
     Loads lie in the plane, or they come in mirrored pairs; so the plane holds the resultants. Where all joints have
@@ -76,7 +76,7 @@ def mirror_candidates(scene: Scene) -> Iterator[FloatArray]:
             yield unit
 
 
-def mirror_about(scene: Scene, normal: FloatArray) -> Mirror | None:
+def mirror_about(scene: ProgramGeometry, normal: FloatArray) -> MirrorPlane | None:
     """The mirror symmetry about the plane through the mean of the centroids with that normal; None if there is none.
 
     normal : (3,) unit
@@ -121,7 +121,7 @@ def _nearest(there: FloatArray, image: FloatArray) -> tuple[FloatArray, IntArray
     return np.asarray(distance, dtype=np.float64), np.asarray(nearest, dtype=np.int64)
 
 
-def _loads_match(scene: Scene, block_of: IntArray, velocity_map: FloatArray) -> bool:
+def _loads_match(scene: ProgramGeometry, block_of: IntArray, velocity_map: FloatArray) -> bool:
     for load in scene.loads():
         size = np.abs(load).max(initial=0.0)
         image = np.zeros_like(load)
@@ -131,7 +131,7 @@ def _loads_match(scene: Scene, block_of: IntArray, velocity_map: FloatArray) -> 
     return True
 
 
-def _guides_match(scene: Scene, block_of: IntArray, velocity_map: FloatArray) -> bool:
+def _guides_match(scene: ProgramGeometry, block_of: IntArray, velocity_map: FloatArray) -> bool:
     """Whether the image of every motion that guides allow is allowed: M Π Mᵀ = Π."""
     if scene.allowed is None:
         return True
@@ -142,13 +142,13 @@ def _guides_match(scene: Scene, block_of: IntArray, velocity_map: FloatArray) ->
 
 
 def _with_points(
-    scene: Scene,
+    scene: ProgramGeometry,
     normal: FloatArray,
     reflect: FloatArray,
     middle: FloatArray,
     block_of: IntArray,
     velocity_map: FloatArray,
-) -> Mirror | None:
+) -> MirrorPlane | None:
     """The symmetry with its contact points; None where they or their joint laws do not match."""
     image_bodies = np.append(block_of, -1)[scene.bodies]
     images = (scene.points - middle) @ reflect
@@ -173,11 +173,11 @@ def _with_points(
     force_maps = sign[:, None, None] * (scene.frames[point_of] @ reflect @ scene.frames.transpose(0, 2, 1))
     if np.abs(force_maps[:, 0, 0] - 1.0).max(initial=0.0) > scene.symmetric:
         return None
-    found = Mirror(normal, block_of, point_of, velocity_map, force_maps)
+    found = MirrorPlane(normal, block_of, point_of, velocity_map, force_maps)
     return found if _ties_match(scene, found) else None
 
 
-def _ties_match(scene: Scene, mirror: Mirror) -> bool:
+def _ties_match(scene: ProgramGeometry, mirror: MirrorPlane) -> bool:
     """Whether the image of a tie that pulls at further bodies pulls at their images."""
     passing, n = np.unique(scene.linking), len(mirror.block_of)
     if not len(passing):
@@ -194,7 +194,7 @@ def _matched_points(here: FloatArray, there: FloatArray, apart: float) -> IntArr
     return None if point_of is None or np.any(point_of[point_of] != np.arange(len(point_of))) else point_of
 
 
-def _middles_of_interfaces(scene: Scene) -> FloatArray:
+def _middles_of_interfaces(scene: ProgramGeometry) -> FloatArray:
     """Mean of the points of its interface for every point, (n_points, 3): it distinguishes points in one place."""
     count = np.maximum(np.bincount(scene.interfaces), 1)
     means = np.column_stack([np.bincount(scene.interfaces, axis) / count for axis in scene.points.T])
@@ -207,7 +207,7 @@ def _features(points: FloatArray, bodies: IntArray, normals: FloatArray, length:
     return np.column_stack([points / length, 10.0 * np.sort(bodies, axis=1), normals * turned])
 
 
-def half_of(scene: Scene, mirror: Mirror) -> tuple[Program, Lift]:
+def half_of(scene: ProgramGeometry, mirror: MirrorPlane) -> tuple[Program, Lift]:
     """The program with unknowns on one side of the plane, symmetric motions and symmetric forces, and the way back.
 
     A point that stands for two has the force and the strength of both, and so moves as each of them does.
@@ -242,7 +242,7 @@ def in_plane_motions(normal: FloatArray) -> FloatArray:
     return basis
 
 
-def _symmetric_motions(mirror: Mirror) -> sp.csr_array:
+def _symmetric_motions(mirror: MirrorPlane) -> sp.csr_array:
     """S, orthonormal columns: six for a pair of blocks, three for a block that the plane halves."""
     blocks = np.arange(len(mirror.block_of))
     first, alone = np.flatnonzero(blocks < mirror.block_of), np.flatnonzero(blocks == mirror.block_of)
@@ -255,7 +255,7 @@ def _symmetric_motions(mirror: Mirror) -> sp.csr_array:
     return sp.csr_array(sp.hstack([(here + there) / np.sqrt(2.0), halved]))
 
 
-def _symmetric_forces(mirror: Mirror) -> sp.csr_array:
+def _symmetric_forces(mirror: MirrorPlane) -> sp.csr_array:
     """P: half of the force at a point and half at its image; at a point in the plane the mean of both."""
     points = np.arange(len(mirror.point_of))
     kept = np.flatnonzero(points <= mirror.point_of)

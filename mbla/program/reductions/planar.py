@@ -20,22 +20,22 @@ import scipy.sparse as sp
 from mbla.arrays import FloatArray, IntArray
 from mbla.program.lift import Lift
 from mbla.program.program import Program
-from mbla.program.reductions.mirror import Mirror, in_plane_motions
+from mbla.program.reductions.mirror import MirrorPlane, in_plane_motions
 from mbla.program.reductions.restrict import block_matrix, restricted
-from mbla.program.reductions.scene import Scene
+from mbla.program.reductions.scene import ProgramGeometry
 from mbla.program.yield_conditions.limits import YieldLimits
 
 BEHIND = 1e-8
 """Relative to block size: points whose places in the plane differ by less are one behind the other."""
 
 
-def is_planar(scene: Scene, mirror: Mirror) -> bool:
+def is_planar(scene: ProgramGeometry, mirror: MirrorPlane) -> bool:
     """Every block its own image, every joint seen edge-on."""
     itself = bool(np.all(mirror.block_of == np.arange(len(mirror.block_of))))
     return itself and float(np.abs(scene.frames[:, 0] @ mirror.normal).max(initial=0.0)) <= scene.symmetric
 
 
-def planar_program(scene: Scene, mirror: Mirror) -> tuple[Program, Lift]:
+def planar_program(scene: ProgramGeometry, mirror: MirrorPlane) -> tuple[Program, Lift]:
     """The program of motions in the plane, and the way back from it."""
     unknowns = _unknowns(scene, mirror)
     limits = _added(scene.program.limits, unknowns.group, unknowns.size)
@@ -53,7 +53,7 @@ class _Unknowns:
     size: FloatArray
 
 
-def _unknowns(scene: Scene, mirror: Mirror) -> _Unknowns:
+def _unknowns(scene: ProgramGeometry, mirror: MirrorPlane) -> _Unknowns:
     """They follow from the places of blocks and points alone, whatever acts on them and whatever joints they have."""
     n = len(scene.centroids)
     motions = np.broadcast_to(in_plane_motions(mirror.normal), (n, 6, 3))
@@ -72,7 +72,7 @@ def _unknowns(scene: Scene, mirror: Mirror) -> _Unknowns:
     return _Unknowns(velocities, forces, group, size)
 
 
-def _one_behind_the_other(scene: Scene, mirror: Mirror, shear: FloatArray) -> IntArray:
+def _one_behind_the_other(scene: ProgramGeometry, mirror: MirrorPlane, shear: FloatArray) -> IntArray:
     """Group of each point, by interfaces: same interface or that of the image, same place in the plane.
 
     An interface and its image may name their two blocks in opposite orders; places are counted the same way in both.

@@ -28,10 +28,10 @@ from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.program.lift import Lift
 from mbla.program.program import Program
 from mbla.program.reductions.restrict import chosen_limits, restricted, selection
-from mbla.program.reductions.scene import COPLANAR, STRAIGHT_ON, Scene, part_of, turns
+from mbla.program.reductions.scene import COPLANAR, STRAIGHT_ON, ProgramGeometry, part_of, turns
 
 
-def without_inner_points(scene: Scene) -> Scene:
+def without_inner_points(scene: ProgramGeometry) -> ProgramGeometry:
     """The scene with the corners of the hulls alone; the same one where there is nothing to leave out."""
     limits = scene.program.limits
     dry = (limits.cohesion == 0) & (limits.tension == 0) & np.isinf(limits.compression)
@@ -46,7 +46,7 @@ def without_inner_points(scene: Scene) -> Scene:
     return part_of(scene, program, np.arange(len(scene.centroids)), points)
 
 
-def _groups(scene: Scene, dry: BoolArray) -> list[IntArray]:
+def _groups(scene: ProgramGeometry, dry: BoolArray) -> list[IntArray]:
     """Points of one pair of bodies, one plane and one joint law, where they may hold more than corners of a hull."""
     candidates = np.flatnonzero(dry & np.isin(scene.interfaces, _suspicious(scene)))
     if not len(candidates):
@@ -62,12 +62,12 @@ def _groups(scene: Scene, dry: BoolArray) -> list[IntArray]:
     return np.split(candidates[order], np.flatnonzero(np.diff(group[order])) + 1)
 
 
-def _suspicious(scene: Scene) -> IntArray:
+def _suspicious(scene: ProgramGeometry) -> IntArray:
     """Interfaces that share their pair of bodies with another one, or do not turn strictly left at each point."""
     return np.union1d(several_of_a_pair(scene), scene.interfaces[turns(scene) <= STRAIGHT_ON])
 
 
-def several_of_a_pair(scene: Scene) -> IntArray:
+def several_of_a_pair(scene: ProgramGeometry) -> IntArray:
     """Numbers of the interfaces, (n_found,), that share their pair of bodies with another one.
 
     All that does not move is one body.
@@ -78,7 +78,7 @@ def several_of_a_pair(scene: Scene) -> IntArray:
     return np.asarray(number[count[which] > 1])
 
 
-def _on_hull(scene: Scene, group: IntArray) -> BoolArray:
+def _on_hull(scene: ProgramGeometry, group: IntArray) -> BoolArray:
     from scipy.spatial import ConvexHull, QhullError
 
     flat = (scene.points[group] - scene.points[group[0]]) @ scene.frames[group[0], 1:].T / scene.length
@@ -100,7 +100,7 @@ ALIKE = 1e-9
 """Relative difference of shares that is rounding."""
 
 
-def program_by_shares(part: Scene, program: Program, way: Lift) -> Program:
+def program_by_shares(part: ProgramGeometry, program: Program, way: Lift) -> Program:
     """A program of the part, reduced or not, in such unknowns; the same one where all its points are alike.
 
     way : back from it to that of the part, but for the motions that guides leave
@@ -122,7 +122,7 @@ def program_by_shares(part: Scene, program: Program, way: Lift) -> Program:
     return replace(restricted(program, None, forces, limits), of_blocks=of_blocks, guided=program.guided)
 
 
-def _shares(part: Scene, way: Lift) -> FloatArray:
+def _shares(part: ProgramGeometry, way: Lift) -> FloatArray:
     """Stiffness s of every point of a program of the part, mean 1 in each interface, (n_points,).
 
     With x = P y between the part and its reduction Σ ‖x‖²/a is Σ ‖y‖²/b: b from the normal components is the area that

@@ -12,11 +12,11 @@ from mbla.contacts.contacts import Contacts
 from mbla.model.model import Model
 from mbla.program.lift import Lift
 from mbla.program.program import Program
-from mbla.program.reductions.mirror import Mirror, half_of, mirror_about, mirror_candidates
+from mbla.program.reductions.mirror import MirrorPlane, half_of, mirror_about, mirror_candidates
 from mbla.program.reductions.planar import is_planar, planar_program
 from mbla.program.reductions.points import program_by_shares, without_inner_points
 from mbla.program.reductions.restrict import guided_program, tidy
-from mbla.program.reductions.scene import Scene, scene_of, split_into_parts
+from mbla.program.reductions.scene import ProgramGeometry, scene_of, split_into_parts
 from mbla.program.reductions.steps import ModelSize, ReductionStep, ReductionSwitches, size_of
 
 
@@ -62,7 +62,7 @@ def reduce_program(
     return Reduced(tuple(parts), size, contacts.interface_of_point, tuple(steps))
 
 
-def reduced_whole(scene: Scene, switches: ReductionSwitches, given: Mirrors) -> Program:
+def reduced_whole(scene: ProgramGeometry, switches: ReductionSwitches, given: Mirrors) -> Program:
     """The program of a structure that moves on: parts that cannot interact now may meet later.
 
     given : planes about which the deck says to mirror it
@@ -80,12 +80,12 @@ class _Smaller:
 
     program: Program
     way: Lift
-    mirror: Mirror | None = None
+    mirror: MirrorPlane | None = None
 
 
 def _with_fewer_points(
-    scene: Scene, switches: ReductionSwitches, associative: bool
-) -> tuple[Scene, list[ReductionStep]]:
+    scene: ProgramGeometry, switches: ReductionSwitches, associative: bool
+) -> tuple[ProgramGeometry, list[ReductionStep]]:
     """Contact points that cannot matter left out."""
     allowed = switches.points and associative
     left = without_inner_points(scene) if allowed and switches.on else scene
@@ -93,7 +93,9 @@ def _with_fewer_points(
     return left, [switches.step("points", allowed, found, size_of([scene.program]), size_of([left.program]))]
 
 
-def _steps_of_parts(scene: Scene, scenes: Sequence[Scene], switches: ReductionSwitches) -> list[ReductionStep]:
+def _steps_of_parts(
+    scene: ProgramGeometry, scenes: Sequence[ProgramGeometry], switches: ReductionSwitches
+) -> list[ReductionStep]:
     """Parts without live load left out, blocks counted; parts with live load taken apart, parts counted."""
     before = size_of([scene.program])
     split = size_of([part.program for part in scenes])
@@ -109,7 +111,7 @@ def _steps_of_parts(scene: Scene, scenes: Sequence[Scene], switches: ReductionSw
 
 
 def _steps_of_planes(
-    scenes: Sequence[Scene],
+    scenes: Sequence[ProgramGeometry],
     smaller: Sequence[_Smaller],
     switches: ReductionSwitches,
     mirrored: bool,
@@ -131,7 +133,7 @@ def _steps_of_planes(
 
 
 def _model_size(
-    scenes: Sequence[Scene], mirrors: Sequence[Mirror | None], parts: Sequence[Program], n_points: int
+    scenes: Sequence[ProgramGeometry], mirrors: Sequence[MirrorPlane | None], parts: Sequence[Program], n_points: int
 ) -> ModelSize:
     """What reaches the solver of a model with n_points contact points."""
     blocks = 0
@@ -145,7 +147,7 @@ def _model_size(
 
 
 def _reduced_part(
-    part: Scene, switches: ReductionSwitches, associative: bool, given: Mirrors, by_interfaces: bool = False
+    part: ProgramGeometry, switches: ReductionSwitches, associative: bool, given: Mirrors, by_interfaces: bool = False
 ) -> _Smaller:
     """The planar program, that of one half with its mirror, or the part's own."""
     mirror = _first_mirror(part, given) if switches.on and len(part.points) else None
@@ -158,7 +160,7 @@ def _reduced_part(
     return _Smaller(part.program, Lift.identity(part.program))
 
 
-def _guided(part: Scene, smaller: _Smaller) -> Program:
+def _guided(part: ProgramGeometry, smaller: _Smaller) -> Program:
     """The reduced program of a part, in the motions that its guides allow."""
     own, allowed = smaller.way.velocities, part.allowed
     if allowed is not None and smaller.program is not part.program:
@@ -173,7 +175,7 @@ the plane that happens to be symmetric about a parallel one is apart from it by 
 Mirrors = tuple[tuple[float, float, float, float], ...]
 
 
-def _is_given(part: Scene, normal: FloatArray, given: Mirrors) -> bool:
+def _is_given(part: ProgramGeometry, normal: FloatArray, given: Mirrors) -> bool:
     """Whether the plane of that unit normal through the middle of a part is one of those given, up to rounding."""
     middle = part.centroids.mean(axis=0)
     for *direction, offset in given:
@@ -184,7 +186,7 @@ def _is_given(part: Scene, normal: FloatArray, given: Mirrors) -> bool:
     return False
 
 
-def _first_mirror(part: Scene, given: Mirrors) -> Mirror | None:
+def _first_mirror(part: ProgramGeometry, given: Mirrors) -> MirrorPlane | None:
     """The first plane that makes the part planar, else the first plane of symmetry, those given before all others."""
     first = None
     for normal in (*(np.array(plane[:3]) for plane in given), *mirror_candidates(part)):

@@ -40,7 +40,7 @@ ROUNDED = 16.0 * float(np.finfo(np.float64).eps)
 
 
 @dataclass(frozen=True)
-class Scene:
+class ProgramGeometry:
     """Free blocks and contact points of a spatial program, in the order of its rows and columns.
 
     centroids : (n_free, 3); arms : (n_free,) length of each block in the program's scaling
@@ -87,12 +87,12 @@ class Scene:
         return self.program.dead_load.reshape(-1, 6), self.program.live_load.reshape(-1, 6)
 
 
-def scene_of(model: Model, contacts: Contacts, program: Program) -> Scene:
+def scene_of(model: Model, contacts: Contacts, program: Program) -> ProgramGeometry:
     """The scene of the program of the full model."""
     row = np.full(len(model.blocks) + len(model.grounds), -1, dtype=np.int64)
     row[program.facts.free] = np.arange(len(program.facts.free))
     units = program.scaling.row.reshape(-1, 6)
-    return Scene(
+    return ProgramGeometry(
         program=program,
         centroids=model.blocks.centroids[program.facts.free],
         arms=units[:, 0] / units[:, 3],
@@ -117,7 +117,7 @@ def _links(contacts: Contacts, row: IntArray) -> dict[str, IntArray]:
     return {"linked": np.column_stack([ends.max(axis=1), others]), "linking": points}
 
 
-def part_of(scene: Scene, program: Program, blocks: IntArray, points: IntArray) -> Scene:
+def part_of(scene: ProgramGeometry, program: Program, blocks: IntArray, points: IntArray) -> ProgramGeometry:
     """The scene of some of the blocks and points, with their own program.
 
     blocks : (n_chosen_blocks,) rows of free blocks in the scene, which get new ones in this order
@@ -128,7 +128,7 @@ def part_of(scene: Scene, program: Program, blocks: IntArray, points: IntArray) 
     number = np.full(len(scene.points), -1, dtype=np.int64)
     number[points] = np.arange(len(points))
     own = number[scene.linking] >= 0
-    return Scene(
+    return ProgramGeometry(
         program=program,
         centroids=scene.centroids[blocks],
         arms=scene.arms[blocks],
@@ -151,7 +151,7 @@ def _own(allowed: sp.csr_array, blocks: IntArray) -> sp.csr_array | None:
     return own if own.diagonal().sum() < len(rows) - 0.5 else None
 
 
-def turns(scene: Scene) -> FloatArray:
+def turns(scene: ProgramGeometry) -> FloatArray:
     """Sine of the turn to the left at each point of an interface, in their order, (n_points,)."""
     return _turns(scene.interfaces, scene.points, scene.frames[:, 0])
 
@@ -175,7 +175,7 @@ def _turns(interfaces: IntArray, points: FloatArray, normals: FloatArray) -> Flo
     return np.asarray(turn / np.maximum(size, 1e-300))
 
 
-def part_of_blocks(scene: Scene) -> IntArray:
+def part_of_blocks(scene: ProgramGeometry) -> IntArray:
     """Part that each free block belongs to, (n_free,), numbered in the order of first blocks."""
     n = len(scene.centroids)
     both = (scene.bodies >= 0).all(axis=1)
@@ -187,7 +187,7 @@ def part_of_blocks(scene: Scene) -> IntArray:
     return connected_labels(pairs, n)
 
 
-def split_into_parts(scene: Scene) -> list[Scene]:
+def split_into_parts(scene: ProgramGeometry) -> list[ProgramGeometry]:
     """Scenes that are solved one by one, in the order of their first blocks; the same scene where that is one."""
     label = part_of_blocks(scene)
     if not np.any(label):
@@ -199,7 +199,7 @@ def split_into_parts(scene: Scene) -> list[Scene]:
     ]
 
 
-def _alone(scene: Scene, blocks: IntArray, points: IntArray) -> Scene:
+def _alone(scene: ProgramGeometry, blocks: IntArray, points: IntArray) -> ProgramGeometry:
     """Some of the blocks with all their points, in their own unit of force."""
     unit = _unit_of_force(scene.loads()[0][blocks])
     program = restricted(

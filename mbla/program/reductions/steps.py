@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from mbla.program.program import Program
 
 
-class StepState(StrEnum):
+class ReductionOutcome(StrEnum):
     """Outcome of a reduction: applied; nothing found; switched off; on, but it would change what is asked for."""
 
     APPLIED = "applied"
@@ -79,7 +79,7 @@ class ReductionStep:
     """
 
     name: str
-    state: StepState
+    state: ReductionOutcome
     found: int
     before: ProgramSize
     after: ProgramSize
@@ -112,7 +112,7 @@ def glued_step(bodies: RigidBodies, left: ProgramSize) -> ReductionStep:
         saved += len(label) - len(sizes)  # a load cell is none of them
     unknowns = left.unknowns + 6 * saved
     before = replace(left, unknowns=unknowns, largest=unknowns)
-    state = StepState.APPLIED if saved else StepState.NONE
+    state = ReductionOutcome.APPLIED if saved else ReductionOutcome.NONE
     return ReductionStep("glued", state, joined + held, before, left)
 
 
@@ -140,8 +140,14 @@ class ReductionSwitches:
 
     def step(self, name: str, allowed: bool, found: int, before: ProgramSize, after: ProgramSize) -> ReductionStep:
         """The record of a reduction that was tried, or not allowed."""
-        state = StepState.NONE if allowed and self.on else StepState.BARRED if self.on else StepState.OFF
-        return ReductionStep(name, StepState.APPLIED if found else state, found, before, after)
+        state = (
+            ReductionOutcome.NONE
+            if allowed and self.on
+            else ReductionOutcome.BARRED
+            if self.on
+            else ReductionOutcome.OFF
+        )
+        return ReductionStep(name, ReductionOutcome.APPLIED if found else state, found, before, after)
 
 
 def allowed_reductions(analysis: AnalysisSection) -> ReductionSwitches:

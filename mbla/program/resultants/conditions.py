@@ -33,7 +33,7 @@ class ConditionRows:
 
 
 @dataclass
-class Entries:
+class Triplets:
     """Entries of a sparse matrix as they come."""
 
     rows: list[IntArray]
@@ -41,7 +41,7 @@ class Entries:
     values: list[FloatArray]
 
     @classmethod
-    def none(cls) -> Entries:
+    def none(cls) -> Triplets:
         """Nothing yet."""
         return cls([], [], [])
 

@@ -45,7 +45,7 @@ import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray, starts
 from mbla.model.solids.ragged import next_item
-from mbla.program.resultants.conditions import M1, M2, MN, T1, T2, ConditionRows, Entries, N
+from mbla.program.resultants.conditions import M1, M2, MN, T1, T2, ConditionRows, N, Triplets
 from mbla.program.resultants.friction_curve import rectangle_curve
 from mbla.program.resultants.shapes import InterfaceShapes
 
@@ -110,7 +110,7 @@ def torsion_rows(limits: TorsionLimits, n_interfaces: int) -> ConditionRows:
     column = UNKNOWNS * np.arange(n)
     cost = np.zeros(UNKNOWNS * n)
     cost[column + 2] = limits.cohesion
-    motion, row = Entries.none(), 6 * limits.interfaces
+    motion, row = Triplets.none(), 6 * limits.interfaces
     motion.add(row + N, column + 2, limits.friction)
     motion.add(row + T1, column, 1.0)
     motion.add(row + T2, column + 1, 1.0)
@@ -123,11 +123,11 @@ def torsion_rows(limits: TorsionLimits, n_interfaces: int) -> ConditionRows:
     return ConditionRows(motion.matrix((6 * n_interfaces, UNKNOWNS * n)), cost, cones.matrix(shape), sizes)
 
 
-def _cones(limits: TorsionLimits, column: IntArray) -> tuple[Entries, IntArray]:
+def _cones(limits: TorsionLimits, column: IntArray) -> tuple[Triplets, IntArray]:
     """k± ≥ 0 and ζ ≥ γ·q;  (σ, η, (θσ − 2 (k+ + k−))/(2 − θ)) and (σ − ζ, η) in second-order cones."""
     n, n_corners, theta = len(column), len(limits.corners), limits.thetas
     owner = np.repeat(column, np.diff(limits.start))
-    cones = Entries.none()
+    cones = Triplets.none()
     twist = (column[:, None] + np.array([3, 4])).ravel()
     cones.add(np.arange(2 * n), twist, 1.0)
     corner = 2 * n + np.arange(n_corners)

@@ -139,7 +139,7 @@ def interface_resultants(contacts: Contacts, contact_forces: FloatArray) -> Floa
 
 
 @dataclass(frozen=True)
-class Reaction:
+class SupportReaction:
     """Force and moment about the origin with which one support acts on the structure, (6,) N and N m."""
 
     support: str
@@ -148,7 +148,7 @@ class Reaction:
 
 def reactions_of(
     model: Model, contacts: Contacts, load_case: LoadCase, mechanics: Mechanics, *, by_group: bool = False
-) -> tuple[Reaction, ...]:
+) -> tuple[SupportReaction, ...]:
     """Reactions of supports, what guides take, which leaves guided blocks in balance, and what ties to supports do.
 
     Fixed and guided blocks stand one by one where they are few, else, or ``by_group``, their groups do.
@@ -160,7 +160,7 @@ def reactions_of(
 
 def _guide_reactions(
     model: Model, contacts: Contacts, load_case: LoadCase, mechanics: Mechanics, by_group: bool
-) -> tuple[Reaction, ...]:
+) -> tuple[SupportReaction, ...]:
     blocks = model.guides.blocks
     acting = acting_with_ties(model, contact_resultants(model, contacts, mechanics.contact_forces), mechanics)
     taken = -(acting + load_case.dead_load + mechanics.load_factor * load_case.live_load)[blocks]
@@ -173,7 +173,7 @@ def _guide_reactions(
     return _by_name(names, taken)
 
 
-def _tie_reactions(model: Model, tie_forces: FloatArray | None) -> tuple[Reaction, ...]:
+def _tie_reactions(model: Model, tie_forces: FloatArray | None) -> tuple[SupportReaction, ...]:
     """What ties and fill that supports hold do to the structure."""
     if tie_forces is None:
         return ()
@@ -185,7 +185,7 @@ def _tie_reactions(model: Model, tie_forces: FloatArray | None) -> tuple[Reactio
 
 def support_reactions(
     model: Model, contacts: Contacts, contact_forces: FloatArray, *, by_group: bool = False
-) -> tuple[Reaction, ...]:
+) -> tuple[SupportReaction, ...]:
     """Reactions of ground planes, then of fixed blocks; supports that touch nothing free are left out.
 
     contact_forces : (n_points, 3)  N, T1, T2 [N], compression positive
@@ -202,7 +202,7 @@ def support_reactions(
     return _by_name(names, onto_structure[order])
 
 
-def group_reactions(model: Model, contacts: Contacts, contact_forces: FloatArray) -> tuple[Reaction, ...]:
+def group_reactions(model: Model, contacts: Contacts, contact_forces: FloatArray) -> tuple[SupportReaction, ...]:
     """Reactions by the group of the free blocks that supports act on, in the order in which groups are met.
 
     Forces of guides are not among them.
@@ -213,12 +213,12 @@ def group_reactions(model: Model, contacts: Contacts, contact_forces: FloatArray
     return _by_name([model.blocks.groups[block] for block in carried.tolist()], onto_structure)
 
 
-def _by_name(names: Sequence[str], wrenches: FloatArray) -> tuple[Reaction, ...]:
+def _by_name(names: Sequence[str], wrenches: FloatArray) -> tuple[SupportReaction, ...]:
     """Sums over wrenches of one name, (n, 6)."""
     sums: dict[str, FloatArray] = {}
     for name, wrench in zip(names, wrenches, strict=True):
         sums[name] = sums.get(name, np.zeros(6)) + wrench
-    return tuple(Reaction(name, wrench) for name, wrench in sums.items())
+    return tuple(SupportReaction(name, wrench) for name, wrench in sums.items())
 
 
 def _onto_structure(

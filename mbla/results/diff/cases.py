@@ -48,7 +48,7 @@ COLUMNS = {
 
 
 @dataclass(frozen=True)
-class Figure:
+class ComparedFigure:
     """A quantity of the record in A and in B, both in the unit of A; nan where there is none.
 
     difference : (B - A) over A, at least over a least size, over B where A is zero; nan where one of them is missing
@@ -63,14 +63,16 @@ class Figure:
     same: bool
 
 
-def figure(name: str, unit: str | None, values: tuple[float, float], tolerance: float, least: float = 0.0) -> Figure:
+def figure(
+    name: str, unit: str | None, values: tuple[float, float], tolerance: float, least: float = 0.0
+) -> ComparedFigure:
     """The difference of two values against a relative tolerance; ``least`` is the size below which they count as it."""
     first, second = values
     if math.isnan(first) or math.isnan(second):
-        return Figure(name, unit, values, math.nan, tolerance, math.isnan(first) and math.isnan(second))
+        return ComparedFigure(name, unit, values, math.nan, tolerance, math.isnan(first) and math.isnan(second))
     size = max(abs(first), least) or abs(second)
     difference = (second - first) / size if size > 0.0 else 0.0
-    return Figure(name, unit, values, difference, tolerance, abs(difference) <= tolerance)
+    return ComparedFigure(name, unit, values, difference, tolerance, abs(difference) <= tolerance)
 
 
 @dataclass(frozen=True)
@@ -97,8 +99,8 @@ class CaseComparison:
     name: str
     status: tuple[Status, Status]
     flow_rule: tuple[str, str]
-    answers: tuple[Figure, ...]
-    figures: tuple[Figure, ...]
+    answers: tuple[ComparedFigure, ...]
+    figures: tuple[ComparedFigure, ...]
     mechanism: MotionComparison
 
     @property
@@ -143,14 +145,14 @@ def _rule(case: CaseResult) -> str:
     return ", ".join(word for word in words if word)
 
 
-def _figures(first: Scene, second: Scene, tolerance: float) -> tuple[Figure, tuple[Figure, ...]]:
+def _figures(first: Scene, second: Scene, tolerance: float) -> tuple[ComparedFigure, tuple[ComparedFigure, ...]]:
     """What a user asks of the case, and the further figures that one of the two has."""
     load_case = _case(first).load_case
     units, its = first.model.units, second.model.units
     force = NEWTONS[its.force] / NEWTONS[units.force]
     factors: dict[UnitKind, float] = {"force": force, "moment": force * METRES[its.length] / METRES[units.length]}
 
-    def compared(name: str) -> Figure:
+    def compared(name: str) -> ComparedFigure:
         unit = COLUMNS[name][0].unit
         values = _value(first, name), _value(second, name) * factors.get(unit, 1.0)
         own = name == load_case.question.column

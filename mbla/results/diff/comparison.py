@@ -15,7 +15,7 @@ from mbla.results.results import Results
 
 
 @dataclass(frozen=True)
-class Comparison:
+class ResultComparison:
     """What differs between results A and B; pairs are of A and of B.
 
     decks     : names
@@ -37,7 +37,7 @@ class Comparison:
         return sum(case.differs for case in self.cases) + len(self.only[0]) + len(self.only[1])
 
 
-def comparison_json(comparison: Comparison, files: tuple[str, str]) -> dict[str, Any]:
+def comparison_json(comparison: ResultComparison, files: tuple[str, str]) -> dict[str, Any]:
     """Everything that was compared; ``files`` are the names of A and B."""
     record: dict[str, Any] = {"files": list(files), "differing": comparison.differing} | as_json(comparison)
     for case, compared in zip(record["cases"], comparison.cases, strict=True):
@@ -45,7 +45,7 @@ def comparison_json(comparison: Comparison, files: tuple[str, str]) -> dict[str,
     return record
 
 
-def compare_results(first: Results, second: Results, tolerance: float | None = None) -> Comparison:
+def compare_results(first: Results, second: Results, tolerance: float | None = None) -> ResultComparison:
     """Everything that differs.
 
     tolerance : relative, of answers; None for the sum of what the two results are good to, at least 1e-6
@@ -54,7 +54,7 @@ def compare_results(first: Results, second: Results, tolerance: float | None = N
     matching = match_blocks(first.model.blocks, second.model.blocks, length)
     own, others = ({case.load_case.name: case for case in results.cases} for results in (first, second))
     pairs = [(scene_of(first, own[name]), scene_of(second, others[name])) for name in own if name in others]
-    return Comparison(
+    return ResultComparison(
         decks=(first.deck.name, second.deck.name),
         created=(first.created, second.created),
         deck_diff=tuple(_deck_lines(first, second)),

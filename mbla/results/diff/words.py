@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 
-from mbla.results.diff.cases import CaseComparison, Figure
-from mbla.results.diff.comparison import Comparison
+from mbla.results.diff.cases import CaseComparison, ComparedFigure
+from mbla.results.diff.comparison import ResultComparison
 from mbla.results.listing.answers import status_name, status_words
 from mbla.results.listing.text import counted, heading, number, sentence, small, table
 
@@ -16,7 +16,7 @@ ROUNDING = 1e-8
 """relative difference that is shown as none"""
 
 
-def comparison_text(comparison: Comparison, names: tuple[str, str]) -> str:
+def comparison_text(comparison: ResultComparison, names: tuple[str, str]) -> str:
     """What differs, at most 100 columns wide; ``names`` are those of the files."""
     lines = [
         f"{letter}  {file}   {deck}, {created}"
@@ -29,7 +29,7 @@ def comparison_text(comparison: Comparison, names: tuple[str, str]) -> str:
     return "\n".join(line.rstrip() for line in lines) + "\n"
 
 
-def _deck(comparison: Comparison) -> list[str]:
+def _deck(comparison: ResultComparison) -> list[str]:
     lines = heading("Deck")
     shown = comparison.deck_diff[:MOST_LINES]
     lines += [f"  {line}" for line in shown] if shown else sentence("The texts are the same.")
@@ -41,7 +41,7 @@ def _deck(comparison: Comparison) -> list[str]:
     return lines
 
 
-def _figures(figures: tuple[Figure, ...]) -> list[str]:
+def _figures(figures: tuple[ComparedFigure, ...]) -> list[str]:
     if not figures:
         return []
     rows = [
@@ -56,17 +56,17 @@ def _figures(figures: tuple[Figure, ...]) -> list[str]:
     return table(["", "A", "B", "difference", ""], rows)
 
 
-def _name(figure: Figure) -> str:
+def _name(figure: ComparedFigure) -> str:
     return figure.name.replace("_", " ")
 
 
-def _percent(figure: Figure) -> str:
+def _percent(figure: ComparedFigure) -> str:
     if math.isnan(figure.difference):
         return "-"
     return "0" if abs(figure.difference) <= ROUNDING else f"{100 * figure.difference:+.3g} %"
 
 
-def _verdict(figure: Figure) -> str:
+def _verdict(figure: ComparedFigure) -> str:
     if figure.same:
         return ""
     if math.isnan(figure.difference):
@@ -95,7 +95,7 @@ def _motion(case: CaseComparison) -> list[str]:
     return sentence(f"angle between the two {found.compared}s: {found.angle:.3g} degrees")
 
 
-def _summary(comparison: Comparison) -> list[str]:
+def _summary(comparison: ResultComparison) -> list[str]:
     lines = []
     for letter, names in zip("AB", comparison.only, strict=True):
         lines += [line for name in names for line in sentence(f"{name}: in {letter} only")]

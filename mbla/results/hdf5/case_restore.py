@@ -10,7 +10,7 @@ from mbla.arrays import FloatArray
 from mbla.deck.sections.analysis import AnalysisSection
 from mbla.errors import Message
 from mbla.model.model import LoadCase
-from mbla.program.reductions import ProgramSize, ReductionStep, StepState
+from mbla.program.reductions import ProgramSize, ReductionOutcome, ReductionStep
 from mbla.program.reductions.steps import REDUCTIONS
 from mbla.results.assessment import NAMES, REMARKS, Assessment, Figure
 from mbla.results.quantities.answers import ANSWERS, MOTIONS
@@ -187,7 +187,7 @@ def _reductions(get: dict[str, Any]) -> tuple[ReductionStep, ...]:
     if not set(found[0]) <= {"glued", *REDUCTIONS}:
         raise ValueError("name of a reduction")
     rows = zip(*found, sizes["before"], sizes["after"], strict=True)
-    return tuple(ReductionStep(name, StepState(state), *row) for name, state, *row in rows)
+    return tuple(ReductionStep(name, ReductionOutcome(state), *row) for name, state, *row in rows)
 
 
 def _records(kind: type[Record], get: dict[str, Any], group: str) -> tuple[Record, ...]:

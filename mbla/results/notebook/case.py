@@ -18,7 +18,7 @@ from mbla.results.listing.sections.mechanism_words import mechanism_summary
 from mbla.results.listing.verdict_words import reasons, verdict
 from mbla.results.notebook.display import View, case_picture
 from mbla.results.outcome import answer_of, associative_of, least_of, result_of, torsion_of
-from mbla.results.pictures.image import Picture
+from mbla.results.pictures.image import EncodedPicture
 from mbla.results.results import CaseResult, Results
 from mbla.solution.solution import Mechanics, Status
 
@@ -183,7 +183,9 @@ class Case:
         code = code_verdict(self.record)
         return f"{self.name}: {self.verdict}{how}{f'. {code}' if code else ''}"
 
-    def picture(self, path: str | Path | None = None, *, kind: str = "mechanism", format: str | None = None) -> Picture:
+    def picture(
+        self, path: str | Path | None = None, *, kind: str = "mechanism", format: str | None = None
+    ) -> EncodedPicture:
         """A picture of the mechanism, of the structure at rest where there is none, or of another kind.
 
         Parameters

@@ -13,7 +13,7 @@ from mbla.model.model import Model
 from mbla.results.disk import write_complete
 from mbla.results.listing.answers import answer_columns, bound_figures, status_words
 from mbla.results.listing.verdict_words import bound_words, reasons
-from mbla.results.pictures.image import Picture, drawn_image
+from mbla.results.pictures.image import EncodedPicture, drawn_image
 from mbla.results.pictures.options import format_of
 from mbla.results.pictures.page import WARNING
 from mbla.results.results import CaseResult, Results
@@ -73,7 +73,9 @@ def _picture(case: Case) -> str:
     return words + image
 
 
-def case_picture(results: Results, case: CaseResult, kind: str, path: Path | None, format: str | None) -> Picture:
+def case_picture(
+    results: Results, case: CaseResult, kind: str, path: Path | None, format: str | None
+) -> EncodedPicture:
     """Draw a case, to a file too if a path is given; raises as :meth:`Case.picture`."""
     from mbla.results.pictures import plot
 

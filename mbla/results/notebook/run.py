@@ -15,7 +15,7 @@ from mbla.results.listing.summary import summary_lines
 from mbla.results.notebook.case import Case
 from mbla.results.notebook.display import View
 from mbla.results.outcome import notices_of
-from mbla.results.pictures.image import Picture
+from mbla.results.pictures.image import EncodedPicture
 from mbla.results.results import Results
 from mbla.results.series import no_such_case, series_of
 
@@ -136,7 +136,7 @@ class Run:
         known = [case for case in plain if not math.isnan(case.load_factor)]
         return min(known, key=lambda case: case.load_factor) if known else next(iter(self.cases), None)
 
-    def picture(self, *, kind: str = "mechanism", format: str | None = None) -> Picture:
+    def picture(self, *, kind: str = "mechanism", format: str | None = None) -> EncodedPicture:
         """The picture of the only load case; raises as ``load_factor`` and ``Case.picture`` do."""
         return self._only().picture(kind=kind, format=format)
 

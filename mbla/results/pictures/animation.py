@@ -22,7 +22,7 @@ from mbla.results.collapse.motion import pushed_motions
 from mbla.results.pictures.drawing import draw_on, drawing_of, extent_of
 from mbla.results.pictures.options import PictureOptions
 from mbla.results.pictures.page import open_frames
-from mbla.results.pictures.scene import Scene, scene_of
+from mbla.results.pictures.scene import PictureScene, scene_of
 from mbla.results.results import CaseResult, Results
 
 FORMATS = ("gif", "mp4")
@@ -98,7 +98,7 @@ def displacements(steps: int = STEPS) -> Any:
     return (1 - np.cos(np.pi * np.arange(steps + 1) / steps)) / 2
 
 
-def _frames(widest: Sequence[Scene], scenes: Iterable[Scene], options: PictureOptions) -> Iterator[Any]:
+def _frames(widest: Sequence[PictureScene], scenes: Iterable[PictureScene], options: PictureOptions) -> Iterator[Any]:
     """Images (height, width, 3) of 0 to 255 of scenes, none of which goes beyond the widest."""
     drawing = drawing_of(widest[0], "mechanism", options.view)
     extent = extent_of(widest, drawing)

@@ -38,7 +38,7 @@ from mbla.results.pictures.page import (
 )
 from mbla.results.pictures.plane import PALE, Flat, draw_flat, flat_of
 from mbla.results.pictures.renderer import image_of
-from mbla.results.pictures.scene import Scene, named_groups, part_colours
+from mbla.results.pictures.scene import PictureScene, named_groups, part_colours
 
 MARGIN = 0.03
 """of the page around the structure, share of the width"""
@@ -65,7 +65,7 @@ class Drawing:
     marks: list[Mark]
 
 
-def drawing_of(scene: Scene, kind: str, view: tuple[float, float] | None = None) -> Drawing:
+def drawing_of(scene: PictureScene, kind: str, view: tuple[float, float] | None = None) -> Drawing:
     """Model, mechanism or forces of a case, in the plane where that can show it and the view is none of space."""
     flat = flat_of(scene, view, kind)
     model, blocks = scene.results.model, scene.model.blocks
@@ -89,7 +89,7 @@ def drawing_of(scene: Scene, kind: str, view: tuple[float, float] | None = None)
     return Drawing(flat, colours, legend + supports, marks + tie_marks(scene, at_work=kind != "model") + loads)
 
 
-def _parts(scene: Scene) -> list[tuple[str, str]]:
+def _parts(scene: PictureScene) -> list[tuple[str, str]]:
     """Names of the parts that move, where they have a colour each."""
     if not scene.motion.any():
         return []
@@ -101,7 +101,7 @@ def _parts(scene: Scene) -> list[tuple[str, str]]:
     return [*legend, ("before it moves", GHOST)]
 
 
-def draw_picture(path: Path, scene: Scene, kind: str, options: PictureOptions) -> None:
+def draw_picture(path: Path, scene: PictureScene, kind: str, options: PictureOptions) -> None:
     """Write model, mechanism or forces of a case to a PNG, SVG or PDF file.
 
     Raises
@@ -117,7 +117,7 @@ def draw_picture(path: Path, scene: Scene, kind: str, options: PictureOptions) -
         draw_on(page, scene, drawing, kind, extent_of([scene], drawing), SHARPNESS[format_of(path)])
 
 
-def extent_of(scenes: Iterable[Scene], drawing: Drawing) -> FloatArray:
+def extent_of(scenes: Iterable[PictureScene], drawing: Drawing) -> FloatArray:
     """All that must be seen of a structure, as built and in some scenes of it, (n, 3) m."""
     points = []
     for scene in scenes:
@@ -126,7 +126,9 @@ def extent_of(scenes: Iterable[Scene], drawing: Drawing) -> FloatArray:
     return np.vstack(points)
 
 
-def draw_on(page: Page, scene: Scene, drawing: Drawing, kind: str, extent: FloatArray, sharpness: float = 1.0) -> None:
+def draw_on(
+    page: Page, scene: PictureScene, drawing: Drawing, kind: str, extent: FloatArray, sharpness: float = 1.0
+) -> None:
     """A drawing with its words, legend, scale and axes; ``extent`` is what must be seen, (n, 3) m."""
     options = page.options
     width, height = options.size
@@ -147,7 +149,9 @@ def draw_on(page: Page, scene: Scene, drawing: Drawing, kind: str, extent: Float
     add_axes(page, "xyz", np.column_stack([camera.right, camera.up]), 0.055, 0.06)
 
 
-def _draw_image(axes: Any, camera: Camera, scene: Scene, drawing: Drawing, elevation: float, height: float) -> None:
+def _draw_image(
+    axes: Any, camera: Camera, scene: PictureScene, drawing: Drawing, elevation: float, height: float
+) -> None:
     placed = [(mark, moved(mark, scene.model, scene.motion)) for mark in drawing.marks]
     slabs = scene.slabs if elevation >= 0 else []  # from below the ground would hide the rest
     pixels = round(camera.aspect * height), round(height)
@@ -155,7 +159,7 @@ def _draw_image(axes: Any, camera: Camera, scene: Scene, drawing: Drawing, eleva
     axes.imshow(image, aspect="auto", interpolation="none", extent=(0.0, camera.aspect, 0.0, 1.0))
 
 
-def ghost_edges(scene: Scene) -> IntArray:
+def ghost_edges(scene: PictureScene) -> IntArray:
     """Edges of the blocks that are seen to have moved, (n, 2) vertices."""
     blocks = scene.model.blocks
     return edges_of_blocks(blocks, block_edges(blocks), scene.displaced)

@@ -14,7 +14,7 @@ from mbla.results.listing.text import number
 from mbla.results.pictures.diagrams import dress, open_diagrams
 from mbla.results.pictures.options import PictureOptions
 from mbla.results.pictures.page import BLUE, GHOST, GREEN, INK, ORANGE, PURPLE, VERMILION, WARNING, Page
-from mbla.results.pictures.scene import Scene
+from mbla.results.pictures.scene import PictureScene
 from mbla.results.series import Series, factor_of, position_of
 from mbla.solution.solution import Status
 from mbla.solution.thresholds import SOLVED_RESIDUAL
@@ -31,7 +31,7 @@ SPREAD = 10.0
 """greatest over least load factor from which positions of a load are drawn to a logarithmic scale"""
 
 
-def draw_history(path: Path, scene: Scene, options: PictureOptions) -> None:
+def draw_history(path: Path, scene: PictureScene, options: PictureOptions) -> None:
     """Write the iteration history of a case, and the path of elastic joints where one was followed.
 
     Raises as ``open_diagrams`` does.
@@ -50,7 +50,7 @@ def draw_history(path: Path, scene: Scene, options: PictureOptions) -> None:
             frames[0].set_axis_off()
 
 
-def _draw_iterations(page: Page, factors: Any, residuals: Any, scene: Scene) -> None:
+def _draw_iterations(page: Page, factors: Any, residuals: Any, scene: PictureScene) -> None:
     """Load factor above, residuals below, over the iterations of all programs in their order."""
     dress(page, factors, "", "load factor")
     dress(page, residuals, "iteration", "relative residual")
@@ -85,7 +85,7 @@ def _of_finite(values: list[float]) -> FloatArray:
     return np.where(np.isfinite(array), array, np.nan)
 
 
-def _without_load_factor(scene: Scene) -> list[int]:
+def _without_load_factor(scene: PictureScene) -> list[int]:
     """Programs that look for something else, as a range of forces; what their iterations hold is no load factor."""
     return [record.program for record in scene.case.solution.programs if not np.isfinite(record.load_factor)]
 
@@ -110,7 +110,7 @@ def _part_programs(page: Page, frames: tuple[Any, Any], program: Any) -> None:
             axes.axvline(start + 1.5, color=GHOST, linewidth=0.8 * page.scale, zorder=0)
 
 
-def _draw_path(page: Page, axes: Any, scene: Scene) -> None:
+def _draw_path(page: Page, axes: Any, scene: PictureScene) -> None:
     """Load factor over the displacement of the path of elastic joints, from where joints slip; points open, sliding."""
     path = scene.case.solution.path
     steps = [point.displacement for point in path]
@@ -132,7 +132,7 @@ def _draw_path(page: Page, axes: Any, scene: Scene) -> None:
     axes.legend(handles=handles, fontsize=page.small, frameon=False, loc="lower right")
 
 
-def draw_curve(path: Path, scene: Scene, options: PictureOptions) -> None:
+def draw_curve(path: Path, scene: PictureScene, options: PictureOptions) -> None:
     """Write the capacity curve of a pushover, load factor over displacement; raises as ``open_diagrams`` does."""
     curve, words = scene.case.solution.further.pushover.curve, scene.words_of("curve")[:2]
     words.append(curve_words(scene.model, scene.case) or "no curve to draw: the load case has no pushover")
@@ -159,7 +159,7 @@ def draw_curve(path: Path, scene: Scene, options: PictureOptions) -> None:
         axes.set_ylim(bottom=min(0.0, float(values.min())))
 
 
-def draw_series(path: Path, scene: Scene, series: Series, options: PictureOptions) -> None:
+def draw_series(path: Path, scene: PictureScene, series: Series, options: PictureOptions) -> None:
     """Write the load factor of a travelling load over its position; raises as ``open_diagrams`` does.
 
     Positions without a result are crosses at the foot, those that no load brings down arrows at the top.

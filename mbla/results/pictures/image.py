@@ -15,7 +15,7 @@ MIME = {"png": "image/png", "svg": "image/svg+xml", "pdf": "application/pdf"}
 
 
 @dataclass(frozen=True)
-class Picture:
+class EncodedPicture:
     """A picture; ``content`` is what its file would hold."""
 
     format: str
@@ -43,9 +43,9 @@ class Picture:
         return f"data:{MIME[self.format]};base64,{base64.b64encode(self.content).decode('ascii')}"
 
 
-def drawn_image(format: str, write: Callable[[Path], None]) -> Picture:
+def drawn_image(format: str, write: Callable[[Path], None]) -> EncodedPicture:
     """What a drawing writes to a file of that format; raises as it does."""
     with tempfile.TemporaryDirectory(prefix="mbla-") as folder:
         path = Path(folder) / f"picture.{format}"
         write(path)
-        return Picture(format, path.read_bytes())
+        return EncodedPicture(format, path.read_bytes())

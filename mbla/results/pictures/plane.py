@@ -20,7 +20,7 @@ from mbla.results.pictures.camera import Camera, axes_of
 from mbla.results.pictures.geometry import block_edges
 from mbla.results.pictures.marks.marks import Mark, moved
 from mbla.results.pictures.page import GHOST, GROUND, INK, SLAB, Page
-from mbla.results.pictures.scene import Scene
+from mbla.results.pictures.scene import PictureScene
 
 if TYPE_CHECKING:
     from mbla.results.pictures.drawing import Drawing
@@ -57,7 +57,7 @@ class Flat:
         return float(np.degrees(np.arctan2(self.towards[1], self.towards[0])))
 
 
-def flat_of(scene: Scene, view: tuple[float, float] | None, kind: str = "mechanism") -> Flat | None:
+def flat_of(scene: PictureScene, view: tuple[float, float] | None, kind: str = "mechanism") -> Flat | None:
     """The plane in which a case can be drawn; None where it needs a picture in space or the view asks for one.
 
     A model is drawn in the plane of its loads where there is one, and else in any.
@@ -100,7 +100,7 @@ def _prisms(model: Model, contacts: Contacts, normal: FloatArray) -> bool:
     return bool(np.all((across <= ALONG) | (across >= 1 - ALONG)) and np.all(edge_on <= ALONG))
 
 
-def _in_plane(scene: Scene, normal: FloatArray) -> bool:
+def _in_plane(scene: PictureScene, normal: FloatArray) -> bool:
     """Loads and motion leave nothing across the plane."""
     case, free = scene.case.load_case, scene.model.free
     motion = scene.mechanics.mechanism if scene.mechanics is not None else scene.case.solution.certificate
@@ -145,7 +145,7 @@ def seen_edges(blocks: Blocks, flat: Flat) -> IntArray:
 # --- The drawing ----------------------------------------------------------------------------------------------------
 
 
-def draw_flat(page: Page, axes: Any, camera: Camera, scene: Scene, drawing: Drawing, flat: Flat) -> None:
+def draw_flat(page: Page, axes: Any, camera: Camera, scene: PictureScene, drawing: Drawing, flat: Flat) -> None:
     """Ground, blocks, where they were, and marks, on axes in heights of the page."""
     import shapely
 

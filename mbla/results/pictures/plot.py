@@ -13,7 +13,7 @@ from mbla.results.pictures.animation import format_of_film, write_animation
 from mbla.results.pictures.history import draw_curve, draw_history, draw_series
 from mbla.results.pictures.options import KINDS, USUAL_KINDS, PictureOptions, format_of, is_single
 from mbla.results.pictures.page import PictureFile, write_pictures
-from mbla.results.pictures.scene import Scene, scene_of
+from mbla.results.pictures.scene import PictureScene, scene_of
 from mbla.results.results import CaseResult, Results
 from mbla.results.series import chosen_cases, detailed_cases, no_such_case, series_of
 
@@ -114,7 +114,7 @@ def _check_name(target: Path, options: PictureOptions) -> None:
         )
 
 
-def draw_picture(path: Path, scene: Scene, kind: str, options: PictureOptions) -> None:
+def draw_picture(path: Path, scene: PictureScene, kind: str, options: PictureOptions) -> None:
     """Write one picture: a diagram of the history, a plane figure where that can show the case, else an image.
 
     Raises as ``plot_case`` does.

@@ -22,7 +22,7 @@ from mbla.results.pictures.camera import Camera
 from mbla.results.pictures.geometry import Slab, block_edges
 from mbla.results.pictures.marks.marks import Mark
 from mbla.results.pictures.page import GHOST, INK, SLAB, rgb
-from mbla.results.pictures.scene import Scene
+from mbla.results.pictures.scene import PictureScene
 
 FINER, FINE = 2, 4_000_000
 """rendered pixels over those of the image, in each direction: smooths edges the same way on every machine; and pixels
@@ -75,7 +75,7 @@ def pyvista() -> Any:
 
 
 def image_of(
-    scene: Scene,
+    scene: PictureScene,
     colours: Sequence[str],
     marks: Sequence[tuple[Mark, FloatArray]],
     slabs: Sequence[Slab],
@@ -130,7 +130,7 @@ def _render(plotter: Any, camera: Camera, width: int, height: int) -> ByteArray:
 def _structure(
     vista: Any,
     plotter: Any,
-    scene: Scene,
+    scene: PictureScene,
     colours: Sequence[str],
     slabs: Sequence[Slab],
     ghost: IntArray,

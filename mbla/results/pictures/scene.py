@@ -22,7 +22,7 @@ from mbla.results.outcome import result_of
 from mbla.results.pictures.geometry import Slab, ground_slabs
 from mbla.results.pictures.options import PictureOptions
 from mbla.results.pictures.page import FIXED_BLOCK, REST, SLOW
-from mbla.results.record.scene import Scene as RecordScene
+from mbla.results.record.scene import Scene
 from mbla.results.results import CaseResult, Results
 from mbla.solution.solution import Mechanics, Status
 
@@ -31,7 +31,7 @@ SEEN = 2e-3
 
 
 @dataclass(frozen=True)
-class Scene(RecordScene):
+class PictureScene(Scene):
     """One load case as it is drawn; also what is no result, ``is_result`` says which.
 
     drawn : (n_blocks, 6) displacement and rotation of each block as drawn, m and rad; zero in pictures at rest
@@ -53,7 +53,7 @@ class Scene(RecordScene):
         """Displacement and rotation of each block as drawn, (n_blocks, 6) m and rad."""
         return self.drawn
 
-    def moved_to(self, scale: float) -> Scene:
+    def moved_to(self, scale: float) -> PictureScene:
         """The same moved by a multiple of the usual displacements."""
         return replace(self, drawn=scale * drawn_motion(self.model, self.case))
 
@@ -123,12 +123,12 @@ class Scene(RecordScene):
         return loads
 
     @cached_property
-    def other_end(self) -> Scene | None:
+    def other_end(self) -> PictureScene | None:
         """Of a force whose least value is drawn the greatest, and the other way round; None where there is none."""
         other = other_end(self.results.cases, self.case)
         if other is None or other.solution.mechanics is None:
             return None
-        return Scene(self.assembly, other, self.results, np.zeros_like(self.motion), self.shown_cases)
+        return PictureScene(self.assembly, other, self.results, np.zeros_like(self.motion), self.shown_cases)
 
     @property
     def forces(self) -> FloatArray | None:
@@ -198,14 +198,14 @@ class Scene(RecordScene):
         return "NOT VERIFIED: no result" if self.mechanics is None else "NOT VERIFIED: no result, the best iterate"
 
 
-def scene_of(results: Results, case: CaseResult, options: PictureOptions, kind: str) -> Scene:
+def scene_of(results: Results, case: CaseResult, options: PictureOptions, kind: str) -> PictureScene:
     """A case as a picture of that kind shows it: moved in a picture of the mechanism, at rest in others."""
     shown = [each for each in results.cases if options.case in (None, each.load_case.name, each.load_case.deck_name)]
-    scene = Scene(results.assembly, case, results, np.zeros((len(results.model.blocks), 6)), tuple(shown))
+    scene = PictureScene(results.assembly, case, results, np.zeros((len(results.model.blocks), 6)), tuple(shown))
     return scene.moved_to(options.scale) if kind == "mechanism" else scene
 
 
-def part_colours(scene: Scene, palette: Sequence[str]) -> list[str]:
+def part_colours(scene: PictureScene, palette: Sequence[str]) -> list[str]:
     """Colour of each block by the part of the listing that it moves with; stone at rest, grey if fixed."""
     parts, slow, fixed = scene.clusters.tolist(), scene.slow.tolist(), scene.model.fixed.tolist()
     still = [SLOW if moves else REST for moves in slow]

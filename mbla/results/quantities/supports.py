@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from mbla.arrays import FloatArray
-from mbla.results.collapse.mechanics import Reaction, reactions_of
+from mbla.results.collapse.mechanics import SupportReaction, reactions_of
 from mbla.results.quantities.group import Group
 from mbla.results.record.scene import Scene
 
@@ -16,7 +16,7 @@ class SupportRow:
     """A support under a load case."""
 
     scene: Scene
-    found: Reaction
+    found: SupportReaction
 
 
 def _rows(scene: Scene) -> Iterator[SupportRow]:

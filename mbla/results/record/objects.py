@@ -204,7 +204,7 @@ class Object(Generic[Owner]):
             yield from member.keys(path + name)
 
 
-KNOWN = {"IntArray": "list[int]", "tuple[int, int]": "list[int]", "StepState": "str", "TieState": "str"}
+KNOWN = {"IntArray": "list[int]", "tuple[int, int]": "list[int]", "ReductionOutcome": "str", "TieState": "str"}
 """types of fields as those of keys"""
 
 

@@ -11,7 +11,7 @@ from mbla.results.listing.answers import answer_columns, bound_figures, status_w
 from mbla.results.listing.blocks import Block, ListingSection
 from mbla.results.listing.listing import case_sections
 from mbla.results.outcome import case_notices, result_of
-from mbla.results.report.figures import Figures
+from mbla.results.report.figures import ReportFigures
 from mbla.results.results import CaseResult, Results
 from mbla.solution.solution import Status
 
@@ -63,12 +63,12 @@ class CaseContent:
     alarm: str
     words: list[Block]
     parts: list[ListingSection]
-    figures: Figures
+    figures: ReportFigures
     warnings: tuple[str, ...]
     view: str
 
 
-def case_content(results: Results, case: CaseResult, number: int, figures: Figures, view: str) -> CaseContent:
+def case_content(results: Results, case: CaseResult, number: int, figures: ReportFigures, view: str) -> CaseContent:
     """The content of load case ``number``, from 1."""
     key = f"case-{number}"
     sections = {section.title: section for section in case_sections(results.assembly, case)}

@@ -27,7 +27,7 @@ OPTIONS = PictureOptions()
 
 
 @dataclass(frozen=True)
-class Figure:
+class ReportFigure:
     """A picture with its caption and what it shows in words; ``source`` is a data URI."""
 
     source: str
@@ -36,18 +36,18 @@ class Figure:
 
 
 @dataclass(frozen=True)
-class Figures:
+class ReportFigures:
     """Pictures, and why there are not more of them; empty where nothing is missing.
 
     view : azimuth and elevation of the eye of pictures in space, degrees; None where all are plane
     """
 
-    pictures: tuple[Figure, ...]
+    pictures: tuple[ReportFigure, ...]
     missing: str = ""
     view: View | None = None
 
 
-def case_figures(results: Results, case: CaseResult) -> Figures:
+def case_figures(results: Results, case: CaseResult) -> ReportFigures:
     """Mechanism, capacity curve of a pushover, and forces where there are any."""
     name, solution = case.load_case.name, case.solution
     no_result = ", best iterate, no result" if best_iterate(case) is not None else ""
@@ -59,30 +59,30 @@ def case_figures(results: Results, case: CaseResult) -> Figures:
     return _drawn(results, case, captions, None)
 
 
-def model_figures(results: Results, view: View | None = None) -> Figures:
+def model_figures(results: Results, view: View | None = None) -> ReportFigures:
     """The model with its groups, supports and the loads of the first load case; nothing where there is none.
 
     view : that of the figures of the first load case, where it is known
     """
     if not results.cases:
-        return Figures(())
+        return ReportFigures(())
     first = results.cases[0]
     return _drawn(results, first, {"model": f"Groups, supports, and loads of load case {first.load_case.name}"}, view)
 
 
-def series_figures(results: Results, series: Series) -> Figures:
+def series_figures(results: Results, series: Series) -> ReportFigures:
     """Load factor over the positions of a travelling load."""
     if len(series.cases) < 2:
-        return Figures(())
+        return ReportFigures(())
     scene = scene_of(results, series.cases[0], OPTIONS, "history")
     caption, words = f"Travelling load {series.name}", "Load factor at each position"
     write = partial(history.draw_series, scene=scene, series=series, options=OPTIONS)
-    return _added(Figures(()), caption, words, "svg", write)
+    return _added(ReportFigures(()), caption, words, "svg", write)
 
 
-def _drawn(results: Results, case: CaseResult, captions: dict[str, str], view: View | None) -> Figures:
+def _drawn(results: Results, case: CaseResult, captions: dict[str, str], view: View | None) -> ReportFigures:
     """Plane figures and diagrams as SVG; pictures in space, which are images, as PNG, all of a case from one side."""
-    found = Figures((), view=view)
+    found = ReportFigures((), view=view)
     for kind, caption in captions.items():
         scene, options, format = scene_of(results, case, OPTIONS, kind), OPTIONS, "svg"
         if kind != "curve" and flat_of(scene, options.view, kind) is None:
@@ -94,13 +94,13 @@ def _drawn(results: Results, case: CaseResult, captions: dict[str, str], view: V
     return found
 
 
-def _added(found: Figures, caption: str, words: str, format: str, write: Callable[[Path], None]) -> Figures:
+def _added(found: ReportFigures, caption: str, words: str, format: str, write: Callable[[Path], None]) -> ReportFigures:
     """With one more picture, or the reason why the machine cannot draw it, to be shown in its place."""
     try:
         source = drawn_image(format, write).data_uri
     except UsageError as error:
         return replace(found, missing=str(error))
-    return replace(found, pictures=(*found.pictures, Figure(source, caption, words)))
+    return replace(found, pictures=(*found.pictures, ReportFigure(source, caption, words)))
 
 
 def _in_words(results: Results, case: CaseResult, kind: str) -> str:

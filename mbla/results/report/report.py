@@ -28,7 +28,7 @@ from mbla.results.listing.verdict_words import bound_words, least_words, reasons
 from mbla.results.outcome import notices_of
 from mbla.results.report.assumptions import assumptions
 from mbla.results.report.content import CaseContent, case_content, notice_kinds, verdict_table
-from mbla.results.report.figures import Figures, case_figures, model_figures, series_figures
+from mbla.results.report.figures import ReportFigures, case_figures, model_figures, series_figures
 from mbla.results.results import CaseResult, Results
 from mbla.results.series import chosen_cases, detailed_cases, series_of
 from mbla.results.view3d.view import library_html, view_html
@@ -82,7 +82,7 @@ def report_html(results: Results, case: str | None = None, *, view: bool = True)
     return page, [f"pictures are missing: {text}" for text in dict.fromkeys(missing)]
 
 
-def _all_figures(content: dict[str, Any]) -> list[Figures]:
+def _all_figures(content: dict[str, Any]) -> list[ReportFigures]:
     series = [figures for _, figures in content["series"]]
     return [*(each.figures for each in content["cases"]), content["model_figures"], *series]
 

@@ -30,7 +30,7 @@ from mbla.results.pictures.marks.marks import Mark, moved
 from mbla.results.pictures.marks.ties import tie_marks
 from mbla.results.pictures.options import PictureOptions
 from mbla.results.pictures.page import FIXED_BLOCK, GROUPS, LIVE_LOAD, REST, SLOW, group_colours, rgb
-from mbla.results.pictures.scene import Scene
+from mbla.results.pictures.scene import PictureScene
 from mbla.results.pictures.scene import scene_of as picture_of
 from mbla.results.results import CaseResult, Results
 
@@ -90,7 +90,7 @@ def scene_of(results: Results, case: CaseResult, view: tuple[float, float] | Non
     }
 
 
-def _ground(scene: Scene, offset: FloatArray) -> dict[str, Any]:
+def _ground(scene: PictureScene, offset: FloatArray) -> dict[str, Any]:
     """The slabs of ground as one mesh of triangles."""
     first = starts(np.array([len(slab.points) for slab in scene.slabs], dtype=np.int64))
     rows = [slab.triangles + begin for slab, begin in zip(scene.slabs, first.tolist(), strict=False)]
@@ -106,12 +106,12 @@ def offset_of(vertices: FloatArray, size: float) -> FloatArray:
     return np.asarray(np.rint(vertices.mean(axis=0) / digit) * digit)
 
 
-def motion_words(scene: Scene) -> str:
+def motion_words(scene: PictureScene) -> str:
     """What the motion is; where it belongs to no result, that it does not."""
     return _with_mark(scene, "motion in which the dead load falls" if scene.mechanics is None else "mechanism")
 
 
-def _with_mark(scene: Scene, words: str) -> str:
+def _with_mark(scene: PictureScene, words: str) -> str:
     mark = scene.mark_of("mechanism")
     return f"{words} ({mark})" if mark else words
 
@@ -146,7 +146,7 @@ Colouring = dict[str, Any]
 """colours as #RRGGBB, of each block its row of these, names and colours for the legend"""
 
 
-def colourings(scene: Scene) -> list[Colouring]:
+def colourings(scene: PictureScene) -> list[Colouring]:
     """The ways to colour that the case has, the first at first; groups and parts as in the pictures."""
     of_group = group_colours(scene.model.blocks.groups)
     row = {name: i for i, name in enumerate(of_group)}
@@ -165,7 +165,7 @@ def colourings(scene: Scene) -> list[Colouring]:
     return found
 
 
-def by_part(scene: Scene, parts: IntArray) -> Colouring:
+def by_part(scene: PictureScene, parts: IntArray) -> Colouring:
     """Parts that move together, (n_blocks,) from 1; what rests, 0, is pale, what is fixed grey; -1: moves less."""
     count = max(int(parts.max(initial=0)), 0)
     names = ["fixed", "moves less", "at rest", *(f"part {part + 1}" for part in range(count))]
@@ -174,7 +174,7 @@ def by_part(scene: Scene, parts: IntArray) -> Colouring:
     return _by_name("part", rows, [names[i] for i in used], tuple(colours[i] for i in used.tolist()))
 
 
-def _by_value(scene: Scene, name: str, values: FloatArray, low: str, high: str, steps: int = 32) -> Colouring:
+def _by_value(scene: PictureScene, name: str, values: FloatArray, low: str, high: str, steps: int = 32) -> Colouring:
     """Values from 0 to 1 in steps, (n_blocks,), nan for none; ``low`` and ``high`` name 0 and 1."""
     ramp = tuple(mixed(REST, STRONGEST[name], i / (steps - 1)) for i in range(steps))
     rows = np.rint(np.nan_to_num(np.clip(values, 0.0, 1.0)) * (steps - 1)).astype(np.int64)
@@ -199,7 +199,7 @@ def mixed(first: str, second: str, share: float) -> str:
     return f"#{red:02X}{green:02X}{blue:02X}"
 
 
-def _block_eccentricity(scene: Scene) -> FloatArray:
+def _block_eccentricity(scene: PictureScene) -> FloatArray:
     """Greatest eccentricity among the interfaces of each block, (n_blocks,); nan where none carries a force."""
     greatest = np.full(len(scene.model.blocks) + len(scene.model.grounds), np.nan)
     if scene.thrust is not None:

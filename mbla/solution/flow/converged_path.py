@@ -29,7 +29,7 @@ def follow_solved(
 
     needed : whether no other path has a state, so that it is followed however slowly
     """
-    path = _Path(joints, gravity, measure, settings, needed=needed)
+    path = _ConvergedPath(joints, gravity, measure, settings, needed=needed)
     stop = None
     while stop is None:
         stop = path.advance()
@@ -39,7 +39,7 @@ def follow_solved(
     return ElasticPath(path.top, half, path.state, stop, curve, measure.displacement, spent, path.halved)
 
 
-class _Path:
+class _ConvergedPath:
     """A path on its way: state and memory of the joints, length of the next step in units, displacement, and peaks."""
 
     def __init__(

@@ -43,7 +43,7 @@ strength; and ratio of a length without break to one with it, or to the estimate
 
 def follow(joints: ElasticJoints, gravity: Gravity, measure: Measure, settings: PathSettings) -> ElasticPath:
     """The path from the structure at rest."""
-    path = _Path(joints, gravity, measure.load_factor, measure.displacement, settings)
+    path = _SmoothedPath(joints, gravity, measure.load_factor, measure.displacement, settings)
     path.begin(measure.motion)
     stop = Stop.BUDGET
     for _ in range(settings.steps):
@@ -55,7 +55,7 @@ def follow(joints: ElasticJoints, gravity: Gravity, measure: Measure, settings: 
 
 
 @dataclass
-class _Path:
+class _SmoothedPath:
     """A path on its way.
 
     scale, unit : load factor and displacement that it is measured by

@@ -27,7 +27,7 @@ IN_PLANE, IN_SPACE = 1.0, 0.1
 
 
 @dataclass(frozen=True)
-class Crushing:
+class StressBlockBounds:
     """Conditions of pieces, m of them.
 
     pieces : their conditions
@@ -47,7 +47,7 @@ class Crushing:
         """Of all pieces."""
         return self.pieces.n_conditions * len(self.pieces.owner)
 
-    def only(self, chosen: IntArray) -> Crushing:
+    def only(self, chosen: IntArray) -> StressBlockBounds:
         """Of some pieces."""
         return replace(self, pieces=self.pieces.only(chosen), pressed=self.pressed[chosen])
 
@@ -118,5 +118,5 @@ def crushing_rows(program: Program, interfaces: CrushingInterfaces) -> Interface
         pressed = sp.csr_array(sp.diags_array(pieces.strength / strength[owner]) @ pressing[owner])
         rows = (size * owner[:, None] + np.arange(size)).ravel()
         acts = sp.csr_array(sp.coo_array((np.ones(len(own)), (rows, own)), shape=(n_rows, len(own))))
-        laws.append(InterfaceLaw(Crushing(pieces, pressed, IN_PLANE if size == 2 else IN_SPACE), acts))
+        laws.append(InterfaceLaw(StressBlockBounds(pieces, pressed, IN_PLANE if size == 2 else IN_SPACE), acts))
     return InterfaceRows(found.resultants, tuple(laws), found.points, found.motions)

@@ -58,7 +58,7 @@ class Derivatives:
     mixed: FloatArray | None = None
 
 
-class Conditions(Protocol):
+class InterfaceBounds(Protocol):
     """What bounds m interfaces: k conditions each on c resultants."""
 
     @property
@@ -77,7 +77,7 @@ class Conditions(Protocol):
     def n_conditions(self) -> int:
         """Of all interfaces."""
 
-    def only(self, chosen: IntArray) -> Conditions:
+    def only(self, chosen: IntArray) -> InterfaceBounds:
         """Of some interfaces."""
 
     def start(self, normal: FloatArray) -> FloatArray:
@@ -116,7 +116,7 @@ class InterfaceState:
 class InterfaceLaw:
     """Conditions, and the rows that their interfaces act on: J, (n_rows, c m), columns interface by interface."""
 
-    conditions: Conditions
+    conditions: InterfaceBounds
     rows: sp.csr_array
 
     def start(self, normal: FloatArray, sigma: float) -> InterfaceState:
@@ -168,7 +168,7 @@ class InterfaceLaw:
         # conditions need not be concave in n: those that a step to there ends beyond are seen as well
         ends = (1.0,) if self.conditions.points is None else (1.0, SHARE)
 
-        def beyond(bounds: Conditions, which: slice | IntArray, length: float) -> IntArray:
+        def beyond(bounds: InterfaceBounds, which: slice | IntArray, length: float) -> IntArray:
             """Those of some interfaces that are outside."""
             own, turn = state.resultants[:, which], direction.resultants[:, which]
             values = [bounds.values(own + end * length * turn, normal + end * length * change) for end in ends]

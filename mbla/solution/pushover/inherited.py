@@ -12,7 +12,7 @@ from scipy.spatial import cKDTree
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.solution.law.elastic_joints import StepState, smoothed_margin, within
-from mbla.solution.pushover.place import Place
+from mbla.solution.pushover.place import PushedPlace
 from mbla.solution.pushover.pose.moved_joints import History, JointsAt, MovedJoints
 
 SAME_PAIR = 5.0
@@ -23,7 +23,7 @@ ALIKE = 0.005
 press: a new normal, that of a face or the mean of two, measures gaps in another way."""
 
 
-def inherited(place: Place, joints: MovedJoints, at: JointsAt) -> tuple[History, StepState | None]:
+def inherited(place: PushedPlace, joints: MovedJoints, at: JointsAt) -> tuple[History, StepState | None]:
     """What the joints of contacts found there remember, from those of a place, and the state they go on from."""
     old, touching = place.joints, joints.touching
     n_before, n_now, new = len(old.areas), len(joints.areas), touching.before < 0
@@ -65,7 +65,7 @@ def _reduced(joints: MovedJoints, which: BoolArray) -> BoolArray:
 
 
 def _state(
-    place: Place,
+    place: PushedPlace,
     joints: MovedJoints,
     at: JointsAt,
     history: History,
@@ -101,13 +101,13 @@ STAYS, WITHIN = 1.0 - 1e-12, 0.999
 """Shares of its limit that shear of points that stay, and of new ones, has at most: a share of 1 slides without end."""
 
 
-def _product(place: Place) -> float:
+def _product(place: PushedPlace) -> float:
     """Mean product of normal force and opening in the smoothed state of a place; nothing without one."""
     state = place.state
     return 0.0 if state is None else float((place.at.joints.margin(state.normal) * state.opening).mean())
 
 
-def _forces_of(place: Place) -> FloatArray:
+def _forces_of(place: PushedPlace) -> FloatArray:
     """Of all points there, (n_points, 3) N: smoothed normal forces, where there are any."""
     old, limits = place.joints, place.at.joints.program.limits
     if place.state is not None:
@@ -119,7 +119,7 @@ def _forces_of(place: Place) -> FloatArray:
 
 
 def _balanced(
-    place: Place, joints: MovedJoints, at: JointsAt, before: FloatArray, begun: FloatArray, carries: BoolArray
+    place: PushedPlace, joints: MovedJoints, at: JointsAt, before: FloatArray, begun: FloatArray, carries: BoolArray
 ) -> FloatArray:
     """Forces, (n_points, 3) N, that have the force and moment between two bodies that those before have.
 
@@ -196,7 +196,7 @@ def _wrenches(places: FloatArray, frames: FloatArray, centre: FloatArray, size: 
     return np.concatenate([frames, np.cross((places - centre)[:, None, :], frames) / size], axis=2)
 
 
-def _turned(place: Place, at: JointsAt, forces: FloatArray, takes: BoolArray, source: IntArray) -> FloatArray:
+def _turned(place: PushedPlace, at: JointsAt, forces: FloatArray, takes: BoolArray, source: IntArray) -> FloatArray:
     """Forces of points before in the frames of those that take them over, (n, 3): shear keeps its way in space."""
     before, now = place.at.placed.frames[source[takes]], at.placed.frames[takes]
     own = forces[source[takes]]
@@ -204,7 +204,7 @@ def _turned(place: Place, at: JointsAt, forces: FloatArray, takes: BoolArray, so
     return np.column_stack([own[:, 0], np.einsum("nkj,nj->nk", now[:, 1:], along)])
 
 
-def _sources(place: Place, joints: MovedJoints, at: JointsAt) -> IntArray:
+def _sources(place: PushedPlace, joints: MovedJoints, at: JointsAt) -> IntArray:
     """The point before of each point, the nearest of its pair for a new one, (n_points,); −1 without any."""
     before, now = place.joints.touching, joints.touching
     source, new = now.before.copy(), np.flatnonzero(now.before < 0)

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray
-from mbla.solution.pushover.place import Place, place_after
+from mbla.solution.pushover.place import PushedPlace, place_after
 from mbla.solution.pushover.pose.moved_joints import MovedJoints
 from mbla.solution.pushover.pose.pose_step import PoseStep, greatest_motion, turned_on
 from mbla.solution.pushover.pose.smoothed_step import smoothed
@@ -40,11 +40,11 @@ class Jump:
     spent : factorisations
     """
 
-    place: Place | None
+    place: PushedPlace | None
     spent: int
 
 
-def jump(place: Place, work: float, kappa: float, is_over: Callable[[BoolArray], bool]) -> Jump:
+def jump(place: PushedPlace, work: float, kappa: float, is_over: Callable[[BoolArray], bool]) -> Jump:
     """From a place where a step of some live work is blocked.
 
     kappa   : smoothing of the steps
@@ -83,7 +83,7 @@ def jump(place: Place, work: float, kappa: float, is_over: Callable[[BoolArray],
     return Jump(_without(place, motion[:, :3], is_over) if drops else None, spent)
 
 
-def _without(place: Place, motion: FloatArray, is_over: Callable[[BoolArray], bool]) -> Place | None:
+def _without(place: PushedPlace, motion: FloatArray, is_over: Callable[[BoolArray], bool]) -> PushedPlace | None:
     """The place without the solids that fall in a motion, (n_solids, 3); None where none does."""
     down = (place.at.loads[0][:, :3] * motion).sum(axis=1)
     speed = np.linalg.norm(motion, axis=1)

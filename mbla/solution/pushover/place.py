@@ -65,7 +65,7 @@ class Energy:
 
 
 @dataclass(frozen=True)
-class Place:
+class PushedPlace:
     """Where a smoothed step has led.
 
     state   : there; None at rest and where contacts are new
@@ -109,7 +109,7 @@ class Row:
     energy: Energy
 
 
-def place_after(step: PoseStep, found: Smoothed, before: Place) -> Place:
+def place_after(step: PoseStep, found: Smoothed, before: PushedPlace) -> PushedPlace:
     """Where a smoothed step has led."""
     joints, state = step.joints, found.state
     factor, twists = joints.full.scaling.load_factor(state.factor), joints.twists(found.u)
@@ -117,10 +117,10 @@ def place_after(step: PoseStep, found: Smoothed, before: Place) -> Place:
     history = step.after(found.at, state.normal)
     end = np.vstack([state.normal[None], history.values[1:]])
     energy = before.energy.after(step, found.at, end, found.u, factor)
-    return Place(found.at, joints, history, state, factor, twists, step.work, ties, energy)
+    return PushedPlace(found.at, joints, history, state, factor, twists, step.work, ties, energy)
 
 
-def row_after(step: PoseStep, found: SolvedPose, before: Place) -> Row:
+def row_after(step: PoseStep, found: SolvedPose, before: PushedPlace) -> Row:
     """The row of a step that is solved."""
     joints, pose = step.joints, found.at.pose
     end = np.vstack([found.forces.normal[None], found.forces.shear])
@@ -130,7 +130,7 @@ def row_after(step: PoseStep, found: SolvedPose, before: Place) -> Row:
     return Row(pose, joints, step.history, joints.forces(end), factor, found.off, ties, energy)
 
 
-def ties_after(place: Place, pose: Pose, twists: FloatArray) -> TieHistory:
+def ties_after(place: PushedPlace, pose: Pose, twists: FloatArray) -> TieHistory:
     """History of ties at a pose to which twists of the solids, (n_solids, 6), have led from a place."""
     structure = place.joints.structure
     model = structure.model

@@ -11,7 +11,7 @@ from mbla.arrays import BoolArray
 from mbla.model.pose import Pose
 from mbla.model.solids.measures import connected_labels
 from mbla.solution.pushover.inherited import inherited
-from mbla.solution.pushover.place import Place
+from mbla.solution.pushover.place import PushedPlace
 from mbla.solution.pushover.pose.moved_joints import History, MovedJoints
 
 MOVED, FAR, SLIPPED = 0.04, 0.1, 0.01
@@ -22,7 +22,7 @@ NEAR = 2e-3
 """Gap over the size of the smaller block up to which a point may hold it."""
 
 
-def renewed(place: Place, is_over: Callable[[BoolArray], bool], falls: BoolArray | None = None) -> Place:
+def renewed(place: PushedPlace, is_over: Callable[[BoolArray], bool], falls: BoolArray | None = None) -> PushedPlace:
     """The place with contacts found anew where something has moved since they were, and without debris.
 
     is_over : whether too much has fallen, (n_solids,): then contacts do not matter any more

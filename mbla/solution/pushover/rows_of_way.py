@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from mbla.solution.pushover.curve_rows import CurveEnd
-from mbla.solution.pushover.place import Place, Row
+from mbla.solution.pushover.place import PushedPlace, Row
 from mbla.solution.pushover.pose.pose_step import PoseStep
 from mbla.solution.pushover.pose.smoothed_step import Smoothed
 
@@ -55,13 +55,13 @@ class RowsOfWay:
     way: float = 0.0
     target: float = 0.0
     count: int = 0
-    peak: tuple[PoseStep, Smoothed, Place] | None = None
+    peak: tuple[PoseStep, Smoothed, PushedPlace] | None = None
     greatest: float = 0.0
     highest: float = 0.0
-    zero: tuple[PoseStep, Smoothed, Place] | None = None
+    zero: tuple[PoseStep, Smoothed, PushedPlace] | None = None
 
     def of_step(
-        self, step: PoseStep, found: Smoothed, place: Place, after: Place
+        self, step: PoseStep, found: Smoothed, place: PushedPlace, after: PushedPlace
     ) -> Generator[Row, None, CurveEnd | None]:
         """Rows within a step; returns why the curve ends there, or None."""
         way, moved = self.of, self.of.displacement(after.pose)
@@ -160,7 +160,7 @@ class RowsOfWay:
         return factor <= end and self.way > 2.0 * self.unit and (asked <= 0.0 or above) and not self.of.settles
 
     def _at(
-        self, step: PoseStep, found: Smoothed, place: Place, goal: float | None, factor: float | None = None
+        self, step: PoseStep, found: Smoothed, place: PushedPlace, goal: float | None, factor: float | None = None
     ) -> Row | None:
         """The row of a part of a step at a displacement of the control point; without one at a load factor, the one the
         deck asks for by default. None where no row is found.

@@ -25,7 +25,7 @@ from mbla.solution.flow.unit_of_displacement import elastic_motion
 from mbla.solution.pushover.control import MOVES, Control
 from mbla.solution.pushover.curve_rows import CurveEnd
 from mbla.solution.pushover.jump import jump
-from mbla.solution.pushover.place import Energy, Place, Row, place_after, row_after
+from mbla.solution.pushover.place import Energy, PushedPlace, Row, place_after, row_after
 from mbla.solution.pushover.pose.moved_joints import History, MovedJoints
 from mbla.solution.pushover.pose.pose_step import PoseStep, greatest_motion, turned_on
 from mbla.solution.pushover.pose.smoothed_step import Smoothed, smoothed
@@ -161,7 +161,7 @@ class Way:
                 self.kappa = min(SMOOTHING, EASIER * self.kappa)
             place = after
 
-    def _past(self, place: Place, attempts: Attempts) -> Place | CurveEnd:
+    def _past(self, place: PushedPlace, attempts: Attempts) -> PushedPlace | CurveEnd:
         """Where to go on from where a step is blocked: there with another one, or behind a jump; else why not."""
         attempts.tries, attempts.work = attempts.tries + 1, SHORTER * attempts.work
         if attempts.tries == SHARP:
@@ -172,7 +172,7 @@ class Way:
             return place
         jumped = self._jumped(place, attempts.asked)
         self.kappa, attempts.tries = SOFT, 0
-        if isinstance(jumped, Place):
+        if isinstance(jumped, PushedPlace):
             attempts.jumps, attempts.work = 0, attempts.asked
             return jumped
         if attempts.jumps == JUMPS or jumped is not None or not attempts.asked:
@@ -180,7 +180,7 @@ class Way:
         attempts.jumps, attempts.work = attempts.jumps + 1, LESS * attempts.asked
         return place
 
-    def _jumped(self, place: Place, work: float) -> Place | CurveEnd | None:
+    def _jumped(self, place: PushedPlace, work: float) -> PushedPlace | CurveEnd | None:
         """Where the structure rests again, or why it does not; None where that is not found."""
         jumped = jump(place, work, SOFT, self.is_over)
         self.spent += jumped.spent
@@ -191,12 +191,12 @@ class Way:
         self.jumps += not lost
         return self.fall if lost else there
 
-    def _breaks(self, place: Place, after: Place) -> bool:
+    def _breaks(self, place: PushedPlace, after: PushedPlace) -> bool:
         """Whether a tie breaks on the way from one place to another."""
         ties = self.structure.model.ties
         return bool((after.ties.broken(ties) & ~place.ties.broken(ties)).any())
 
-    def at_rest(self) -> Place | None:
+    def at_rest(self) -> PushedPlace | None:
         """Under the dead load, or on its support; None where that is not found."""
         structure = self.structure
         none = np.zeros(structure.n_solids, dtype=np.bool_)
@@ -211,7 +211,7 @@ class Way:
         if found is None or not found.solved:
             return None
         after, factor = step.after(found.at, found.forces.normal), joints.full.scaling.load_factor(found.factor)
-        return Place(found.at, joints, after, None, factor, np.zeros((len(none), 6)), 0.0, ties, Energy())
+        return PushedPlace(found.at, joints, after, None, factor, np.zeros((len(none), 6)), 0.0, ties, Energy())
 
     def displacement(self, pose: Pose) -> float:
         """Of the control point, m."""
@@ -227,7 +227,7 @@ class Way:
         """The end of what falls."""
         return CurveEnd.NOT_CARRIED if self.settles else CurveEnd.FALLS
 
-    def row(self, step: PoseStep, found: Smoothed, place: Place) -> Row | None:
+    def row(self, step: PoseStep, found: Smoothed, place: PushedPlace) -> Row | None:
         """The step from a place solved from a smoothed one; None where that is not found."""
         sharp = replace(step, spent=0)
         row = solved(sharp, found)
@@ -250,7 +250,7 @@ class Way:
         masses[self.structure.case.question.giving_way] = 0.0
         return masses
 
-    def _unit(self, place: Place) -> float:
+    def _unit(self, place: PushedPlace) -> float:
         """Live work of elastic joints, at a tenth of the dead load; with less, where nothing holds what moves."""
         at, length = place.at.joints, place.joints.length
         joints = replace(at, normal=at.normal * length, shear=at.shear * length)
@@ -261,7 +261,7 @@ class Way:
         far = greatest_motion(place.joints, place.joints.twists(motion))
         return abs(float(program.live_load @ motion)) * min(1.0, LARGEST / max(far, 1e-300))
 
-    def _stepped(self, place: Place, attempts: Attempts) -> tuple[PoseStep, Smoothed | None]:
+    def _stepped(self, place: PushedPlace, attempts: Attempts) -> tuple[PoseStep, Smoothed | None]:
         """A smoothed step from a place, as the one before led there."""
         joints, work = place.joints, attempts.work
         if not attempts.tries:
@@ -273,7 +273,7 @@ class Way:
         self.spent += step.spent
         return step, found
 
-    def _next(self, before: Place, after: Place, found: Smoothed, work: float, rows: RowsOfWay) -> float:
+    def _next(self, before: PushedPlace, after: PushedPlace, found: Smoothed, work: float, rows: RowsOfWay) -> float:
         """Live work of the next step."""
         wanted = min(LONGER.get(found.directions, LONG) * work, max(FIRST * rows.unit, OF_WAY * rows.way))
         moved = self.displacement(after.pose) - self.displacement(before.pose)

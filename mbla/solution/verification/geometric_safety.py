@@ -9,7 +9,7 @@ from mbla.assembly.lift import motions_of_bodies
 from mbla.model.model import LoadCase
 from mbla.solution.further.geometric_safety.geometric_safety import MOST, TOLERANCE, GeometricSafety, shrunk
 from mbla.solution.further.geometric_safety.reference_pressure import pressed_by, unit_of_pressure
-from mbla.solution.further.sensitivity.structures import Structure
+from mbla.solution.further.sensitivity.structures import LoadedAssembly
 from mbla.solution.solution import Mechanics
 from mbla.solution.verification.case import Case
 from mbla.solution.verification.proofs import associative_bounds
@@ -29,7 +29,7 @@ def proved(assembly: Assembly, load_case: LoadCase, safety: GeometricSafety) -> 
         return False
     bounds = []
     for row, size in enumerate(safety.sizes):
-        whole = Structure(shrunk(assembly, float(size)), load_case)
+        whole = LoadedAssembly(shrunk(assembly, float(size)), load_case)
         posed = pressed_by(whole, float(safety.pressed[row]), unit_of_pressure(whole))
         bodies = posed.assembly.glued(load_case)
         state = Mechanics(

@@ -27,7 +27,7 @@ from mbla.run import solve_case
 from mbla.solution.further.geometric_safety.joint_pressure import joint_pressure
 from mbla.solution.further.geometric_safety.reference_pressure import pressed_by
 from mbla.solution.further.sensitivity.sensitivity import slope_by
-from mbla.solution.further.sensitivity.structures import Structure
+from mbla.solution.further.sensitivity.structures import LoadedAssembly
 from mbla.solution.settings import solver_settings
 from mbla.solution.solution import Checks, Standing, StandingResult, Status
 from mbla.solution.standing.standing import standing_where_carried
@@ -99,11 +99,11 @@ def refuse_unfit_deck(deck: Deck, question: FindQuestion) -> None:
 
 def _structure(
     deck: Deck, question: FindQuestion, *overrides: str, contacts: KnownContacts | None = None
-) -> tuple[Deck, Structure]:
+) -> tuple[Deck, LoadedAssembly]:
     """The deck with some values changed, and its structure; raises DeckError where it is refused."""
     varied = read_deck_text(deck.sources[0].text, deck.path, (*deck.overrides, *overrides), expected=False)
     model = build_model(varied)
-    return varied, Structure(build_assembly(varied, model, contacts), _case(model, question))
+    return varied, LoadedAssembly(build_assembly(varied, model, contacts), _case(model, question))
 
 
 def _case(model: Model, question: FindQuestion) -> LoadCase:
@@ -123,7 +123,7 @@ def _case(model: Model, question: FindQuestion) -> LoadCase:
 # --- load factors ---------------------------------------------------------------------------------------------------
 
 
-def _factor(deck: Deck, question: FindQuestion, structure: Structure, x: float) -> Evaluation:
+def _factor(deck: Deck, question: FindQuestion, structure: LoadedAssembly, x: float) -> Evaluation:
     """A load factor of the load case, as ``mbla run`` gives it."""
     log = StatusFile(io.StringIO(), deck.title)
     case = solve_case(deck, structure.assembly, structure.load_case, solver_settings(deck.analysis), log, None)
@@ -157,7 +157,7 @@ def _farther(result: float, bounds: tuple[float, float]) -> float:
     return max(0.0, result - bounds[0], bounds[1] - result)
 
 
-def _slope(deck: Deck, question: FindQuestion, structure: Structure, case: CaseResult) -> float:
+def _slope(deck: Deck, question: FindQuestion, structure: LoadedAssembly, case: CaseResult) -> float:
     """Of an associative load factor; nan where it has none.
 
     It is also that of a load factor without dilatancy that is the same: that is never above the associative one, so
@@ -169,7 +169,7 @@ def _slope(deck: Deck, question: FindQuestion, structure: Structure, case: CaseR
 # --- standing -------------------------------------------------------------------------------------------------------
 
 
-def _stands(deck: Deck, question: FindQuestion, structure: Structure, x: float) -> Evaluation:
+def _stands(deck: Deck, question: FindQuestion, structure: LoadedAssembly, x: float) -> Evaluation:
     """The greatest pressure in all joints that is carried with the dead load, and on which side of nothing it is."""
     found = joint_pressure(structure, deck.analysis)
     value, (least, most), verified = found.value, found.bounds, found.checks.verified
@@ -179,7 +179,7 @@ def _stands(deck: Deck, question: FindQuestion, structure: Structure, x: float) 
         return Evaluation(x, math.nan, value, math.nan, side, verified, words, found.solves)
     stands = "stands" if least >= 0.0 else "does not stand" if most < 0.0 else "at the limit"
 
-    def posed(other: Structure) -> Structure:
+    def posed(other: LoadedAssembly) -> LoadedAssembly:
         return pressed_by(other, found.reference_pressure, found.unit)
 
     own, unit = slope_by(deck, found.posed, found.solution, found.checks, question.path, posed), found.unit

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from mbla.program.reductions.scene import Scene, scene_of
+from mbla.program.reductions.scene import ProgramGeometry, scene_of
 from tests.line import line_of
 
 
-def scene(text: str, *overrides: str) -> Scene:
+def scene(text: str, *overrides: str) -> ProgramGeometry:
     """Of the program of the whole model under the first load case."""
     line = line_of(text, *overrides)
     return scene_of(line.model, line.contacts, line.program)

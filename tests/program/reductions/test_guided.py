@@ -13,7 +13,7 @@ from mbla.contacts import find_contacts
 from mbla.deck import read_deck
 from mbla.model import build_model
 from mbla.program import assemble
-from mbla.program.reductions import StepState, reduce_program, unreduced
+from mbla.program.reductions import ReductionOutcome, reduce_program, unreduced
 from mbla.program.reductions.restrict import _projector
 from mbla.program.reductions.steps import ReductionStep, ReductionSwitches, glued_step, size_of
 from mbla.solution.settings import solver_settings
@@ -184,7 +184,7 @@ def step_of(law: str, foot: str) -> ReductionStep:
 def test_unknowns_before_and_after(law: str, foot: str, found: int, before: int, after: int) -> None:
     step = step_of(law, foot)
     assert (step.found, step.before.unknowns, step.after.unknowns) == (found, before, after)
-    assert step.state is (StepState.APPLIED if found else StepState.NONE)
+    assert step.state is (ReductionOutcome.APPLIED if found else ReductionOutcome.NONE)
 
 
 @pytest.mark.parametrize(("law", "found"), [("dry", 0), ("glued", 3)])

@@ -18,8 +18,8 @@ from mbla.program.lift import Lift
 from mbla.program.reductions import Reduced, allowed_reductions, reduce_program
 from mbla.program.reductions.points import program_by_shares, without_inner_points
 from mbla.program.reductions.restrict import chosen_limits, restricted, selection, tidy
-from mbla.program.reductions.scene import Scene, part_of
-from mbla.program.reductions.steps import ProgramSize, ReductionSwitches, StepState, size_of
+from mbla.program.reductions.scene import ProgramGeometry, part_of
+from mbla.program.reductions.steps import ProgramSize, ReductionOutcome, ReductionSwitches, size_of
 from mbla.solution.settings import SolverSettings
 from mbla.solution.standing.standing import stress_free_state
 from tests.line import BLOCK, HEAD, WALL, Line, line_of, verified
@@ -47,7 +47,7 @@ analysis: {flow_rule: associative}
 """A block that sits on another one and leans against its side: two planes between one pair of bodies."""
 
 
-def points_alone(whole: Scene, points: IntArray) -> Scene:
+def points_alone(whole: ProgramGeometry, points: IntArray) -> ProgramGeometry:
     """The scene with some of its points."""
     n = len(whole.centroids)
     blocks = selection(np.arange(n), n, 6)
@@ -177,14 +177,14 @@ SMALL, LARGE = ProgramSize(6, 4, 40, 6), ProgramSize(12, 8, 80, 12)
 @pytest.mark.parametrize(
     ("on", "allowed", "found", "state"),
     [
-        (True, True, 3, StepState.APPLIED),
-        (True, True, 0, StepState.NONE),
-        (True, False, 0, StepState.BARRED),
-        (False, True, 0, StepState.OFF),
-        (False, False, 0, StepState.OFF),
+        (True, True, 3, ReductionOutcome.APPLIED),
+        (True, True, 0, ReductionOutcome.NONE),
+        (True, False, 0, ReductionOutcome.BARRED),
+        (False, True, 0, ReductionOutcome.OFF),
+        (False, False, 0, ReductionOutcome.OFF),
     ],
 )
-def test_what_became_of_a_reduction(on: bool, allowed: bool, found: int, state: StepState) -> None:
+def test_what_became_of_a_reduction(on: bool, allowed: bool, found: int, state: ReductionOutcome) -> None:
     step = ReductionSwitches(on=on).step("planar", allowed, found, LARGE, SMALL)
     assert (step.name, step.state, step.found, step.before, step.after) == ("planar", state, found, LARGE, SMALL)
 

@@ -10,8 +10,8 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from mbla.program.program import Program
-from mbla.program.reductions import Reduced, StepState, reduce_program, unreduced
-from mbla.program.reductions.mirror import Mirror
+from mbla.program.reductions import Reduced, ReductionOutcome, reduce_program, unreduced
+from mbla.program.reductions.mirror import MirrorPlane
 from mbla.program.reductions.steps import ReductionSwitches
 from mbla.program.yield_conditions import yield_violation
 from mbla.solution.associative.solve_associative import solve_associative
@@ -176,7 +176,7 @@ def applied(line: Line) -> set[str]:
     return {
         step.name
         for step in reduced(line, associative=line.deck.analysis.flow_rule == "associative").steps
-        if step.state is StepState.APPLIED
+        if step.state is ReductionOutcome.APPLIED
     }
 
 
@@ -246,7 +246,7 @@ def test_an_image_of_an_interface_is_one_or_pieces_of_several() -> None:
     """Two pairs of interfaces on either side of a plane, the second as pieces that are not images of one another."""
     of_point = np.array([0, 0, 1, 1, 2, 2, 3, 3])
     none, maps = np.zeros(3), np.zeros((8, 3, 3))
-    swapped = Mirror(none, np.zeros(1, dtype=np.int64), np.array([2, 3, 0, 1, 6, 7, 4, 5]), np.eye(6), maps)
+    swapped = MirrorPlane(none, np.zeros(1, dtype=np.int64), np.array([2, 3, 0, 1, 6, 7, 4, 5]), np.eye(6), maps)
     assert swapped.keeps_interfaces(of_point)
     across = replace(swapped, point_of=np.array([2, 3, 0, 1, 6, 5, 4, 7]))
     assert not across.keeps_interfaces(of_point)

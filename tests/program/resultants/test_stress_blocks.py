@@ -9,7 +9,7 @@ from mbla.arrays import FloatArray
 from mbla.program.resultants.interface_motions import CrushingInterfaces, crushing_of
 from mbla.program.resultants.shapes import InterfaceShapes
 from mbla.program.resultants.stress_blocks import pieces_in_plane
-from mbla.solution.law.crushing_interfaces import Crushing
+from mbla.solution.law.crushing_interfaces import StressBlockBounds
 from mbla.solution.verification.interface_laws import InterfaceLaws, crushing_excess
 from tests.line import Line, line_of
 from tests.solution.convex_structures import prism
@@ -44,7 +44,7 @@ def test_resultants_are_within_as_verification_has_it(outline: tuple[tuple[float
     normal = rng.uniform(-0.2, 1.1, n) * full
     moments = rng.uniform(-0.2, 0.2, (2, n)) * full * rho
     resultants = np.stack([normal, *moments / rho]) / force
-    conditions = Crushing(pieces, found.resultants, 1.0)
+    conditions = StressBlockBounds(pieces, found.resultants, 1.0)
     within = np.array([conditions.values(one[:, None], np.zeros(0)).min() for one in resultants.T])
     none, every = np.zeros(n), np.ones(n)
     strength, own = (interfaces.compression + interfaces.tension) * every, interfaces.tension * every

@@ -6,12 +6,12 @@ from dataclasses import replace
 
 import numpy as np
 
-from mbla.results.diff.comparison import Comparison, compare_results
+from mbla.results.diff.comparison import ResultComparison, compare_results
 from mbla.results.diff.words import comparison_text
 from tests.results.synthetic import tower_results
 
 
-def text_of(comparison: Comparison) -> str:
+def text_of(comparison: ResultComparison) -> str:
     """In one line, as lines are broken where they are full."""
     return " ".join(comparison_text(comparison, ("a.h5", "b.h5")).split())
 

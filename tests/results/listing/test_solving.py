@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from mbla.program.reductions import ReductionStep, StepState
+from mbla.program.reductions import ReductionOutcome, ReductionStep
 from mbla.program.reductions.steps import REDUCTIONS
 from mbla.results.listing.blocks import MOST_ROWS, Fact
 from mbla.results.listing.sections.figures import (
@@ -75,7 +75,7 @@ def test_every_reduction_has_its_words() -> None:
 
 
 def test_a_line_says_what_was_found_and_what_is_left() -> None:
-    off = ReductionStep("mirror", StepState.OFF, 0, STEP.after, STEP.after)
+    off = ReductionStep("mirror", ReductionOutcome.OFF, 0, STEP.after, STEP.after)
     words = "2 parts solved apart; 12 of 12 velocities left, 8 cones"
     assert reduction_facts((STEP, off)) == [Fact("reduction, parts", words)]
 

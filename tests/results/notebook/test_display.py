@@ -10,7 +10,7 @@ import pytest
 
 from mbla.errors import FileError, UsageError
 from mbla.results.notebook.run import Run
-from mbla.results.pictures.image import Picture
+from mbla.results.pictures.image import EncodedPicture
 from mbla.solution.solution import Status
 from tests.results.synthetic import tower_results
 
@@ -78,9 +78,9 @@ def test_pictures_as_notebooks_want_them(drawn: list[str], tmp_path: Path) -> No
         with pytest.raises(UsageError):
             case.picture(**wrong)
     with pytest.raises(UsageError, match="png"):
-        Picture("png", PNG).save(tmp_path / "c.svg")
+        EncodedPicture("png", PNG).save(tmp_path / "c.svg")
     with pytest.raises(FileError):
-        Picture("png", PNG).save(tmp_path / "a.svg" / "c.png")  # a file is no folder
+        EncodedPicture("png", PNG).save(tmp_path / "a.svg" / "c.png")  # a file is no folder
 
 
 def test_no_name_is_markup(drawn: list[str]) -> None:

@@ -19,7 +19,7 @@ from mbla.results.pictures.options import VIEWS, PictureOptions
 from mbla.results.pictures.page import GROUPS, HINGE, OPEN, SLAB, WARNING, group_colours, rgb, round_length
 from mbla.results.pictures.plot import draw_picture
 from mbla.results.pictures.renderer import SHINE, can_draw, image_of
-from mbla.results.pictures.scene import MOST_GROUPS, Scene, scene_of
+from mbla.results.pictures.scene import MOST_GROUPS, PictureScene, scene_of
 from mbla.results.results import CaseResult, Results
 from mbla.solution.solution import Mechanics, Status
 from tests.results.opengl import needs_opengl
@@ -30,7 +30,7 @@ NAMED = "{http://www.w3.org/2000/svg}"
 ISO = PictureOptions(size=(400, 250), view=(-60.0, 25.0))
 
 
-def scene(results: Results | None = None, kind: str = "mechanism", case: int = 0, **options: Any) -> Scene:
+def scene(results: Results | None = None, kind: str = "mechanism", case: int = 0, **options: Any) -> PictureScene:
     results = results or tower_results()
     return scene_of(results, results.cases[case], PictureOptions(**options), kind)
 
@@ -266,7 +266,7 @@ def test_figures_that_are_no_result_are_framed_in_red(tmp_path: Path) -> None:
     assert near(picture(tmp_path / "right.png", "mechanism")[:3], WARNING) == 0
 
 
-def image(shown: Scene, points: FloatArray, view: tuple[float, float] = (-60.0, 25.0), slabs: Any = ()) -> Any:
+def image(shown: PictureScene, points: FloatArray, view: tuple[float, float] = (-60.0, 25.0), slabs: Any = ()) -> Any:
     """Of the structure with a red mark from one point to another."""
     mark = segments("", "#FF0000", points[None], np.full((1, 2), -1), [""])
     extent = np.vstack([shown.model.blocks.vertices, points])

@@ -11,23 +11,23 @@ import pytest
 from mbla.assembly.assembly import Assembly
 from mbla.results.pictures.options import VIEWS, PictureOptions
 from mbla.results.pictures.plane import Flat, face_polygons, flat_of, seen_edges
-from mbla.results.pictures.scene import Scene, scene_of
+from mbla.results.pictures.scene import PictureScene, scene_of
 from mbla.results.results import CaseResult, Results
 from tests.results.synthetic import cuboids, tower_results
 
 
-def scene(results: Results | None = None, case: CaseResult | None = None) -> Scene:
+def scene(results: Results | None = None, case: CaseResult | None = None) -> PictureScene:
     results = results or tower_results()
     return scene_of(results, case or results.cases[0], PictureOptions(), "mechanism")
 
 
-def flat(shown: Scene | None = None, view: tuple[float, float] | None = None) -> Flat:
+def flat(shown: PictureScene | None = None, view: tuple[float, float] | None = None) -> Flat:
     found = flat_of(shown or scene(), view)
     assert found is not None
     return found
 
 
-def with_live_load(live: Any) -> Scene:
+def with_live_load(live: Any) -> PictureScene:
     """The tower under another load, nothing known of its mechanism."""
     results = tower_results()
     case = results.cases[0]
@@ -36,7 +36,7 @@ def with_live_load(live: Any) -> Scene:
     return scene(results, replace(case, load_case=load_case, solution=solution))
 
 
-def with_blocks(lower: Any, upper: Any) -> Scene:
+def with_blocks(lower: Any, upper: Any) -> PictureScene:
     results = tower_results()
     return scene(
         replace(

@@ -21,7 +21,7 @@ from mbla.results.record.json_record import results_json
 from mbla.results.report import report
 from mbla.results.report.assumptions import SLIDING, assumptions
 from mbla.results.report.content import OF_LISTING
-from mbla.results.report.figures import Figure, Figures
+from mbla.results.report.figures import ReportFigure, ReportFigures
 from mbla.results.report.report import report_html, report_path, write_report
 from mbla.results.results import CaseResult, Results
 from mbla.solution.solution import Status
@@ -35,7 +35,7 @@ DOT = "data:image/png;base64,iVBORw0KGgo="
 @pytest.fixture(autouse=True)
 def no_drawing(monkeypatch: pytest.MonkeyPatch) -> None:
     """Pictures take seconds and have tests of their own."""
-    figures = Figures((Figure(DOT, "Mechanism", "The structure"),))
+    figures = ReportFigures((ReportFigure(DOT, "Mechanism", "The structure"),))
     monkeypatch.setattr(report, "case_figures", lambda results, case: figures)
     monkeypatch.setattr(report, "model_figures", lambda results, view: figures)
     monkeypatch.setattr(report, "series_figures", lambda results, series: figures)
@@ -251,7 +251,7 @@ def test_without_the_extra_it_says_what_to_install(monkeypatch: pytest.MonkeyPat
 
 
 def test_missing_pictures_are_said_in_the_page_and_beside_it(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(report, "case_figures", lambda results, case: Figures((), "pictures need OpenGL"))
+    monkeypatch.setattr(report, "case_figures", lambda results, case: ReportFigures((), "pictures need OpenGL"))
     html, remarks = report_html(tower_results(), view=False)
     assert remarks == ["pictures are missing: pictures need OpenGL"]
     page = Page(html)

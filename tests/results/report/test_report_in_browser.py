@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 
 from mbla.results.report import report as report_module
-from mbla.results.report.figures import Figures
+from mbla.results.report.figures import ReportFigures
 from mbla.results.report.report import write_report
 from mbla.results.results import Results
 from tests.browser import Visit, visited
@@ -132,7 +132,7 @@ def with_views(browser: Any, tmp_path_factory: pytest.TempPathFactory) -> Iterat
     results = replace(results, cases=tuple(replace(first, load_case=each) for each in load_cases))
     path = tmp_path_factory.mktemp("views") / "report.html"
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(report_module, "case_figures", lambda results, case: Figures(()))
+        patch.setattr(report_module, "case_figures", lambda results, case: ReportFigures(()))
         write_report(results, path)
     found = open_report(browser, path)
     yield found

@@ -10,13 +10,13 @@ import pytest
 
 from mbla.arrays import BoolArray, FloatArray
 from mbla.solution.pushover import way as ways
-from mbla.solution.pushover.place import Place
+from mbla.solution.pushover.place import PushedPlace
 from mbla.solution.pushover.renewal import renewed
 from tests.solution.pushover.test_pushover import pushover_of
 from tests.solution.pushover.test_pushover_laws import random_deck
 
 
-def wrenches(place: Place) -> dict[tuple[int, int], FloatArray]:
+def wrenches(place: PushedPlace) -> dict[tuple[int, int], FloatArray]:
     """Smoothed force and moment about the origin on b of each pair of bodies, (6,) N and N m."""
     assert place.state is not None
     joints, state = place.joints, place.state
@@ -32,9 +32,9 @@ def wrenches(place: Place) -> dict[tuple[int, int], FloatArray]:
 @pytest.mark.parametrize("seed", [0, 3])
 def test_two_bodies_press_on_each_other_as_before(seed: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """A wall and a block that slide: new points of a pair have the force and moment of those before."""
-    found = list[tuple[Place, Place]]()
+    found = list[tuple[PushedPlace, PushedPlace]]()
 
-    def watched(place: Place, is_over: Callable[[BoolArray], bool]) -> Place:
+    def watched(place: PushedPlace, is_over: Callable[[BoolArray], bool]) -> PushedPlace:
         new = renewed(place, is_over)
         if new.joints is not place.joints and place.state is not None:
             found.append((place, new))

@@ -8,7 +8,7 @@ import scipy.sparse as sp
 
 from mbla.arrays import FloatArray
 from mbla.program.resultants.stress_blocks import pieces_in_space, with_conditions
-from mbla.solution.law.crushing_interfaces import Crushing
+from mbla.solution.law.crushing_interfaces import StressBlockBounds
 from mbla.solution.verification.interface_laws import (
     InterfaceLaws,
     crushing_excess,
@@ -173,7 +173,7 @@ def beyond_pieces(laws: InterfaceLaws, resultants: FloatArray) -> FloatArray:
     kind = int(len(plates[1].owner) > 0)
     pieces = with_conditions(plates[kind], ("parallelogram", "triangle")[kind], laws.strength, laws.tension)
     of_pieces = np.stack([resultants[:, 0], -resultants[:, 5], resultants[:, 4]])
-    return np.asarray(-Crushing(pieces, sp.csr_array((n, 1)), 1.0).values(of_pieces, np.zeros(0)).min(axis=0))
+    return np.asarray(-StressBlockBounds(pieces, sp.csr_array((n, 1)), 1.0).values(of_pieces, np.zeros(0)).min(axis=0))
 
 
 @pytest.mark.parametrize("tension", [0.0, TENSION])

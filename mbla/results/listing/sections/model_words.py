@@ -10,7 +10,7 @@ from mbla import __version__
 from mbla.arrays import IntArray
 from mbla.errors import Notice
 from mbla.model.model import LoadCase, Model
-from mbla.program.reductions.steps import ReductionStep, StepState
+from mbla.program.reductions.steps import ReductionOutcome, ReductionStep
 from mbla.results.listing.blocks import Block, Fact, ListingSection, Paragraph, apart, facts, paragraphs, table_of
 from mbla.results.listing.places import label_words
 from mbla.results.listing.sections.contact_words import contact_section, finding_sections
@@ -187,7 +187,7 @@ def reduction_facts(steps: Sequence[ReductionStep]) -> list[Fact]:
     """A row for each reduction that found something, in the order in which they are applied."""
     rows = []
     for step in steps:
-        if step.state is StepState.APPLIED:
+        if step.state is ReductionOutcome.APPLIED:
             what, became = FOUND[step.name]
             left = f"{step.after.unknowns} of {step.before.unknowns} velocities left, {step.after.cones} cones"
             rows.append(Fact(f"reduction, {step.name}", f"{counted(step.found, what)} {became}; {left}"))

@@ -8,10 +8,10 @@ from mbla.arrays import FloatArray
 from mbla.model.fill import FillBody
 from mbla.results.pictures.marks.marks import Mark, outer_rows
 from mbla.results.pictures.page import FILL
-from mbla.results.pictures.scene import Scene
+from mbla.results.pictures.scene import PictureScene
 
 
-def fill_marks(scene: Scene) -> list[Mark]:
+def fill_marks(scene: PictureScene) -> list[Mark]:
     """The fills of a model; none without fill."""
     fill = scene.model.fill
     if fill is None:

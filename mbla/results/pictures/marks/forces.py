@@ -12,7 +12,7 @@ from mbla.results.collapse.thrust import OUTSIDE
 from mbla.results.listing.text import number
 from mbla.results.pictures.marks.marks import Mark, dots, interface_names, segments
 from mbla.results.pictures.page import HINGE, ORANGE, OTHER_END, PURPLE, RESULTANT, SLIDE, THRUST
-from mbla.results.pictures.scene import Scene
+from mbla.results.pictures.scene import PictureScene
 
 SIDE = 0.7
 """length of a resultant over the size of the smaller block at its joint"""
@@ -28,7 +28,7 @@ USED = 0.999
 """share of the friction from which all of it counts as used: forces are known to about a thousandth of it"""
 
 
-def force_marks(scene: Scene, *, proportional: bool = False) -> list[Mark]:
+def force_marks(scene: PictureScene, *, proportional: bool = False) -> list[Mark]:
     """Resultants of interfaces, the thicker, or the longer, the larger; lines of thrust; joints that are used up."""
     thrust, use = scene.thrust, scene.torsion_use
     if thrust is None or use is None or not thrust.carried.any():
@@ -59,7 +59,7 @@ def force_marks(scene: Scene, *, proportional: bool = False) -> list[Mark]:
     return [mark for mark in found if len(mark.pairs)]
 
 
-def drawn_resultants(scene: Scene) -> IntArray:
+def drawn_resultants(scene: PictureScene) -> IntArray:
     """Interfaces whose resultants are drawn, (n,), in their order: the largest ones above the least share."""
     assert scene.thrust is not None  # asked for where there are forces
     sizes = np.where(scene.thrust.carried, np.linalg.norm(scene.thrust.forces, axis=1), 0.0)
@@ -67,7 +67,7 @@ def drawn_resultants(scene: Scene) -> IntArray:
     return np.sort(order[sizes[order] > LEAST * sizes.max(initial=0.0)])
 
 
-def thrust_lines(scene: Scene, texts: Sequence[str]) -> list[Mark]:
+def thrust_lines(scene: PictureScene, texts: Sequence[str]) -> list[Mark]:
     """Lines of thrust; of a force that is sought those of its other end as well, between which all others lie."""
     question, other = scene.case.load_case.question, scene.other_end
     if question.collapses:
@@ -83,7 +83,7 @@ LINE, OTHER_LINE = 0.4, 1.0
 """thickness of lines of thrust that run inside resultants, and of those beside them"""
 
 
-def thrust_line(scene: Scene, texts: Sequence[str], name: str, colour: str, width: float = LINE) -> Mark:
+def thrust_line(scene: PictureScene, texts: Sequence[str], name: str, colour: str, width: float = LINE) -> Mark:
     """Lines of thrust along chains of blocks."""
     none = np.zeros((0, 2), dtype=np.int64)
     steps = np.concatenate([none, *(np.column_stack([line[:-1], line[1:]]) for line in scene.lines)])
@@ -94,7 +94,7 @@ def thrust_line(scene: Scene, texts: Sequence[str], name: str, colour: str, widt
     return Mark(name, colour, points, bodies, pairs, np.full(len(pairs), width), labels, inside=True)
 
 
-def force_texts(scene: Scene) -> list[str]:
+def force_texts(scene: PictureScene) -> list[str]:
     """Of every interface its forces in words."""
     thrust, unit = scene.thrust, scene.model.units.force
     assert thrust is not None  # asked for where there are forces

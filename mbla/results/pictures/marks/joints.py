@@ -12,7 +12,7 @@ from mbla.contacts.contacts import Contacts
 from mbla.results.collapse.interface_modes import InterfaceMode, InterfaceMotion
 from mbla.results.pictures.marks.marks import Mark, arrows, interface_names, outer_rows, rings, segments
 from mbla.results.pictures.page import CRUSH, HINGE, INK, OPEN, SLIDE
-from mbla.results.pictures.scene import Scene
+from mbla.results.pictures.scene import PictureScene
 
 THIN = 0.3
 """thickness of hinges that the listing does not name and of outlines, over that of other hinges"""
@@ -22,7 +22,7 @@ LEAST_SLIP = 0.02
 """half length of the arrow of a small joint that slides, over the size of the structure"""
 
 
-def joint_marks(scene: Scene, *, flat: bool = True) -> list[Mark]:
+def joint_marks(scene: PictureScene, *, flat: bool = True) -> list[Mark]:
     """What opens, slides, crushes and turns in the motion as drawn; nothing of a structure at rest.
 
     flat : in a plane every joint that moves; else, where they would be drawn one behind another, the cracks between the
@@ -59,7 +59,7 @@ def interface_sides(contacts: Contacts, chosen: BoolArray) -> IntArray:
     return np.column_stack([rows, following])[on_outline]
 
 
-def cracks(scene: Scene, names: Sequence[str]) -> Mark:
+def cracks(scene: PictureScene, names: Sequence[str]) -> Mark:
     """Outlines of the surfaces in which parts of the listing come apart, as part of the blocks of both sides.
 
     A side that two interfaces of one surface share lies within it.
@@ -105,7 +105,7 @@ def _opening(contacts: Contacts, chosen: BoolArray, names: list[str]) -> Mark:
     )
 
 
-def _hinges(scene: Scene, joints: InterfaceMotion, names: list[str], chosen: BoolArray | None = None) -> Mark:
+def _hinges(scene: PictureScene, joints: InterfaceMotion, names: list[str], chosen: BoolArray | None = None) -> Mark:
     """Axes of the interfaces, or of chosen ones, that open about one; those on hinge lines of the listing are thick."""
     rows = np.flatnonzero((joints.modes == InterfaceMode.HINGE) & (True if chosen is None else chosen))
     widths = np.ones(len(rows))
@@ -116,7 +116,7 @@ def _hinges(scene: Scene, joints: InterfaceMotion, names: list[str], chosen: Boo
     return segments("hinge", HINGE, joints.hinge_ends[rows], scene.contacts.bodies[rows], texts, widths)
 
 
-def _slips(scene: Scene, joints: InterfaceMotion, sliding: IntArray, names: list[str]) -> list[Mark]:
+def _slips(scene: PictureScene, joints: InterfaceMotion, sliding: IntArray, names: list[str]) -> list[Mark]:
     """How one part goes over the other, in the middle of each sliding plane of the listing: an arrow or a ring.
 
     It is that of the part which moves, of two that do the lighter one, as in the listing.

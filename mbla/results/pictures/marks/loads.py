@@ -21,7 +21,7 @@ from mbla.questions.reaction import Settlement
 from mbla.questions.travel import TravelPosition
 from mbla.results.pictures.marks.marks import Mark, arrows, dots, rings, segments
 from mbla.results.pictures.page import CASES, DEAD_LOAD, LIVE_LOAD
-from mbla.results.pictures.scene import Scene
+from mbla.results.pictures.scene import PictureScene
 from mbla.results.results import CaseResult
 from mbla.results.series import position_of, without_vehicle, worst_known
 
@@ -37,7 +37,7 @@ MOST_CASES = 6
 """load cases whose loads a legend names"""
 
 
-def shown_loads(scene: Scene, kind: str) -> list[Mark]:
+def shown_loads(scene: PictureScene, kind: str) -> list[Mark]:
     """The live load of the case; of the model those of all load cases shown; the dead load where it is what acts."""
     case, found = scene.case.load_case, list[Mark]()
     falls = kind == "mechanism" and scene.mechanics is None and scene.case.solution.certificate is not None
@@ -68,7 +68,7 @@ def path_marks(positions: Sequence[CaseResult], label: str, colour: str) -> list
     return [replace(line, widths=np.full(len(line.pairs), 0.3)), dots(label, colour, points, bodies, texts)]
 
 
-def live_marks(scene: Scene, case: LoadCase, label: str, colour: str, place: int = 0) -> list[Mark]:
+def live_marks(scene: PictureScene, case: LoadCase, label: str, colour: str, place: int = 0) -> list[Mark]:
     """The live load of a load case, of a vehicle its axles, or the way that a support gives.
 
     label : for the legend; empty for none
@@ -90,7 +90,7 @@ def text_of(name: str, words: tuple[str, ...]) -> str:
 
 
 def marks_of_load(
-    scene: Scene,
+    scene: PictureScene,
     text: str,
     colour: str,
     loads: FloatArray,
@@ -204,7 +204,7 @@ def arrow_steps(forces: FloatArray, size: float) -> FloatArray:
     return np.asarray(forces * lengths / sizes)
 
 
-def _of_settlement(scene: Scene, text: str, colour: str, settlement: Settlement) -> list[Mark]:
+def _of_settlement(scene: PictureScene, text: str, colour: str, settlement: Settlement) -> list[Mark]:
     """Of each support an arrow from the box around it, along its mean motion; a ring where it only turns."""
     ways = np.round(settlement.motions[:, :3], 9)
     if not settlement.turns and len(kinds := np.unique(ways, axis=0)) > 1:

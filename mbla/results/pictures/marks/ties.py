@@ -12,7 +12,7 @@ from mbla.results.collapse.ties import TieRow, TieState, tie_rows
 from mbla.results.listing.text import number
 from mbla.results.pictures.marks.marks import Mark, segments
 from mbla.results.pictures.page import GHOST
-from mbla.results.pictures.scene import Scene
+from mbla.results.pictures.scene import PictureScene
 
 TIE, YIELDING, SOIL = "#00695C", "#C2185B", "#8D6E63"
 """colours of ties, and of fill that holds faces"""
@@ -20,7 +20,7 @@ STRIP = 0.3
 """half length of the line that stands for what acts at one place, over the size of the smaller block"""
 
 
-def tie_marks(scene: Scene, *, at_work: bool = True) -> list[Mark]:
+def tie_marks(scene: PictureScene, *, at_work: bool = True) -> list[Mark]:
     """Ties by what they do in the mechanism, where there is one and they are shown at work; else all alike."""
     ties = scene.model.ties
     if not len(ties):
@@ -43,7 +43,7 @@ def tie_marks(scene: Scene, *, at_work: bool = True) -> list[Mark]:
     return [mark for mark in found if len(mark.pairs)]
 
 
-def _segments(scene: Scene, ties: Ties) -> tuple[FloatArray, IntArray, IntArray]:
+def _segments(scene: PictureScene, ties: Ties) -> tuple[FloatArray, IntArray, IntArray]:
     """Ends of all stretches, (n, 2, 3) m, the body at each, (n, 2), -1 outside, and the tie of each, (n,)."""
     stretches = ties.stretches
     ends, bodies = ties.places[stretches].copy(), ties.bodies[stretches]

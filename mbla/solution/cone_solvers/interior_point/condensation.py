@@ -26,7 +26,7 @@ import scipy.sparse as sp
 from scipy.sparse.csgraph import connected_components
 
 from mbla.arrays import FloatArray, IntArray
-from mbla.solution.cone_solvers.interior_point.cones import ConeData, Scaling, boosted, largest_entry
+from mbla.solution.cone_solvers.interior_point.cones import ConeData, NesterovToddScaling, boosted, largest_entry
 from mbla.solution.linear_algebra import Factorization, factorization
 from mbla.solution.linear_algebra.block_products import (
     DenseRows,
@@ -58,7 +58,7 @@ STRONGER = (1.0, 1e2, 1e4)
 
 
 def refined_solution(
-    data: ConeData, condensation: Condensation, scaling: Scaling, r_x: FloatArray, r_e: FloatArray
+    data: ConeData, condensation: Condensation, scaling: NesterovToddScaling, r_x: FloatArray, r_e: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
     """The step dx, (n_unknowns,), and dy, (n_equations,), refined against the system until that brings nothing more.
 
@@ -122,7 +122,7 @@ def bordered(inner: FloatArray, rhs: FloatArray) -> FloatArray:
 
 
 def _left(
-    data: ConeData, scaling: Scaling, x: FloatArray, y: FloatArray, r_x: FloatArray, r_e: FloatArray
+    data: ConeData, scaling: NesterovToddScaling, x: FloatArray, y: FloatArray, r_x: FloatArray, r_e: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
     bent = scaling.inverse(scaling.inverse(data.cone_matrix @ x))
     left = r_x - data.quadratic * x - data.cone_matrix_t @ bent - data.equations_t @ y
@@ -136,7 +136,7 @@ class _Rows:
     of_lines: FloatArray
     of_cones: FloatArray
 
-    def scaled(self, lines: IntArray, cones: IntArray, scaling: Scaling) -> FloatArray:
+    def scaled(self, lines: IntArray, cones: IntArray, scaling: NesterovToddScaling) -> FloatArray:
         """W⁻¹ of the rows, (n, a + d b, C)."""
         n, a, width = self.of_lines.shape
         d, b = len(self.of_cones), cones.shape[1]
@@ -171,7 +171,7 @@ class _Batch:
     over_local: _Rows
     members: int
 
-    def eliminated(self, scaling: Scaling) -> tuple[FloatArray, FloatArray, FloatArray]:
+    def eliminated(self, scaling: NesterovToddScaling) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Projected rows in blocks of equal unknowns, U (rows, g, n) and R (g, g, n)."""
         x = self.over_all.scaled(self.lines, self.cones, scaling)
         n, height, width = x.shape
@@ -201,7 +201,7 @@ class Condensation:
         self._batches, columns = _batches(data, self._over_all)
         self._products: PlacedProducts = placed_products(n, columns)
         self.factors: Factorization = factorization(self._products.pattern, library)
-        identity = self._scaling = Scaling.identity(data.product)
+        identity = self._scaling = NesterovToddScaling.identity(data.product)
         diagonal = self._products.summed([batch.eliminated(identity)[0] for batch in self._batches])
         self._shift = SHIFT * float(diagonal[self._products.diagonal].mean())
         self._border = data.equations[:, :n].toarray().T
@@ -209,7 +209,7 @@ class Condensation:
         self._inner = np.zeros((self._border.shape[1],) * 2)
         self._local: list[tuple[FloatArray, FloatArray]] = []
 
-    def factorize(self, scaling: Scaling) -> bool:
+    def factorize(self, scaling: NesterovToddScaling) -> bool:
         """Assemble and factorise N."""
         eliminated = [batch.eliminated(scaling) for batch in self._batches]
         self._scaling, self._local = scaling, [(u, r) for _, u, r in eliminated]

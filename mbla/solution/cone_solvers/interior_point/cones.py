@@ -145,7 +145,7 @@ def determinant(cones: FloatArray) -> FloatArray:
 
 
 @dataclass(frozen=True)
-class Scaling:
+class NesterovToddScaling:
     """W of one pair of vectors.
 
     line : (n_lines,) W on half-lines
@@ -159,7 +159,7 @@ class Scaling:
     eta: FloatArray
 
     @staticmethod
-    def of(product: ConeProduct, s: FloatArray, z: FloatArray) -> Scaling:
+    def of(product: ConeProduct, s: FloatArray, z: FloatArray) -> NesterovToddScaling:
         """Of two vectors inside the cones, (n_lines + 3 n_cones,) each."""
         line = np.sqrt(product.lines(s) / product.lines(z))
         a, b = product.cones(s), product.cones(z)
@@ -169,14 +169,14 @@ class Scaling:
         w = np.empty_like(a)
         w[1:] = (a[1:] - b[1:]) / (2.0 * gamma)
         w[0] = np.sqrt(1.0 + along(w, w))
-        return Scaling(product, line, w, (det_a / det_b) ** 0.25)
+        return NesterovToddScaling(product, line, w, (det_a / det_b) ** 0.25)
 
     @staticmethod
-    def identity(product: ConeProduct) -> Scaling:
+    def identity(product: ConeProduct) -> NesterovToddScaling:
         """W = I."""
         w = np.zeros((product.dimension, product.n_cones))
         w[0] = 1.0
-        return Scaling(product, np.ones(product.n_lines), w, np.ones(product.n_cones))
+        return NesterovToddScaling(product, np.ones(product.n_lines), w, np.ones(product.n_cones))
 
     def times(self, v: FloatArray) -> FloatArray:
         """The product W v, (n_lines + 3 n_cones,)."""

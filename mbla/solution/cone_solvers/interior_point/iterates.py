@@ -14,7 +14,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.solution.cone_solvers.interior_point.condensation import Condensation, refined_solution
-from mbla.solution.cone_solvers.interior_point.cones import ConeData, Scaling, dot, largest_entry
+from mbla.solution.cone_solvers.interior_point.cones import ConeData, NesterovToddScaling, dot, largest_entry
 
 
 @dataclass(frozen=True)
@@ -102,7 +102,7 @@ def inside_start(data: ConeData) -> Point:
 
 def usual_start(data: ConeData, condensation: Condensation) -> Point | None:
     """Least squares: the least slack s, and the least z, that fit the equations, moved inside; None on breakdown."""
-    product, identity = data.product, Scaling.identity(data.product)
+    product, identity = data.product, NesterovToddScaling.identity(data.product)
     if not condensation.factorize(identity):
         return None
     pull = data.cone_matrix_t @ data.cone_rhs
@@ -178,7 +178,7 @@ class Outcome(Enum):
 
 
 @dataclass(frozen=True)
-class Run:
+class IterationControl:
     """What a run needs beside the data.
 
     progress : gets every iterate's number, measures and the length of the step that led there
@@ -200,7 +200,9 @@ class Ended:
     iterations: int
 
 
-def best_of_run(data: ConeData, run: Run, start: Point, step: Callable[[Point], tuple[Point, float] | None]) -> Ended:
+def best_of_run(
+    data: ConeData, run: IterationControl, start: Point, step: Callable[[Point], tuple[Point, float] | None]
+) -> Ended:
     """Iterate until there is an answer or none can be expected; ``step`` gives None on breakdown, and its length."""
     kept, point, length, outcome = _Kept(), start, 1.0, Outcome.ITERATIONS
     for number in range(run.max_iterations + 1):
@@ -278,7 +280,7 @@ class _Kept:
         return Ended(outcome, *self.best, number)
 
 
-def _verdict(measures: Measures, run: Run) -> Outcome | None:
+def _verdict(measures: Measures, run: IterationControl) -> Outcome | None:
     if measures.worst <= run.tolerance:
         return Outcome.SOLVED
     if measures.infeasible <= run.tolerance:

@@ -31,13 +31,13 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.solution.cone_solvers.interior_point.condensation import Condensation, refined_solution
-from mbla.solution.cone_solvers.interior_point.cones import ConeData, Scaling, dot
+from mbla.solution.cone_solvers.interior_point.cones import ConeData, NesterovToddScaling, dot
 from mbla.solution.cone_solvers.interior_point.iterates import (
     Ended,
+    IterationControl,
     Outcome,
     Point,
     Residuals,
-    Run,
     best_of_run,
     inside_start,
     measured,
@@ -53,7 +53,9 @@ CORRECTORS, LONG, BEYOND, OUTLYING = 2, 0.9, 0.3, 10.0
 counts as outlying. On 18 walls, vaults and arches they saved a tenth of the iterations."""
 
 
-def solve_cone_program(data: ConeData, condensation: Condensation, run: Run, start: Point | None = None) -> Ended:
+def solve_cone_program(
+    data: ConeData, condensation: Condensation, run: IterationControl, start: Point | None = None
+) -> Ended:
     """Run the method from a start inside the cones, the usual one if None."""
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):  # a run that diverges is seen and given up
         point = start or usual_start(data, condensation)
@@ -82,7 +84,7 @@ class _Frame:
 
     data: ConeData
     condensation: Condensation
-    scaling: Scaling
+    scaling: NesterovToddScaling
     middle: FloatArray
     residuals: Residuals
 
@@ -123,7 +125,7 @@ class _Frame:
 def _step(data: ConeData, condensation: Condensation, point: Point) -> tuple[Point, float] | None:
     """Predictor and correctors; the next iterate and the shorter of the two lengths, None on breakdown."""
     product = data.product
-    scaling = Scaling.of(product, point.s, point.z)
+    scaling = NesterovToddScaling.of(product, point.s, point.z)
     middle = scaling.times(point.z)
     if not np.isfinite(middle).all() or not condensation.factorize(scaling):
         return None

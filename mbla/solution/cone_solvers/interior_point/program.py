@@ -17,7 +17,7 @@ from mbla.program.kinematic import ConeProgram
 from mbla.solution.cone_solvers.cone_solution import ConeSolution, Log
 from mbla.solution.cone_solvers.interior_point.condensation import Condensation
 from mbla.solution.cone_solvers.interior_point.cones import ConeData, cone_data
-from mbla.solution.cone_solvers.interior_point.iterates import Ended, Measures, Outcome, Run, warm_start
+from mbla.solution.cone_solvers.interior_point.iterates import Ended, IterationControl, Measures, Outcome, warm_start
 from mbla.solution.cone_solvers.interior_point.method import solve_cone_program
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import IterationRecord, Status
@@ -68,7 +68,7 @@ class CondensedProgram:
         started = time.perf_counter()
         data, condensation = self.prepared()
         progress, settings = self._progress(program_number, to_load_factor, started), self.settings
-        run = Run(settings.tolerance, settings.max_iterations, settings.deadline, progress)
+        run = IterationControl(settings.tolerance, settings.max_iterations, settings.deadline, progress)
         ended, iterations = self._from_near(data, condensation, run)
         if ended is None:
             ended = solve_cone_program(data, condensation, run)
@@ -85,7 +85,7 @@ class CondensedProgram:
         if self._data is not None:
             self._data = self._data.changed(self.cone_program)
 
-    def _from_near(self, data: ConeData, condensation: Condensation, run: Run) -> tuple[Ended | None, int]:
+    def _from_near(self, data: ConeData, condensation: Condensation, run: IterationControl) -> tuple[Ended | None, int]:
         """The run from a neighbour's solution; None where there is none or it leads nowhere, and its iterations."""
         if self._near is None:
             return None, 0

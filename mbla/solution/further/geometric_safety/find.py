@@ -36,7 +36,7 @@ from mbla.solution.further.geometric_safety.geometric_safety import (
     shrunk_contacts,
 )
 from mbla.solution.further.geometric_safety.joint_pressure import JointPressure, joint_pressure
-from mbla.solution.further.sensitivity.structures import Structure
+from mbla.solution.further.sensitivity.structures import LoadedAssembly
 from mbla.solution.further.zeros.samples import Zero
 from mbla.solution.further.zeros.zeros import find_zero
 from mbla.solution.solution import Mechanics
@@ -63,7 +63,7 @@ def geometric_safety_of(
 ) -> tuple[GeometricSafety | None, tuple[Message, ...]]:
     """The factor of the dead load of a case, verified; None without, and a remark on why there is none."""
     against = why_no_geometric_safety(assembly.model, assembly.contacts, load_case, analysis)
-    found = None if against else geometric_safety(Structure(assembly, load_case), analysis, log)
+    found = None if against else geometric_safety(LoadedAssembly(assembly, load_case), analysis, log)
     if found is None:
         why = (
             against or "forces that carry the dead load are found at no size of the joints, or a wedge holds it at any"
@@ -92,7 +92,9 @@ def why_no_geometric_safety(model: Model, contacts: Contacts, load_case: LoadCas
     return ""
 
 
-def geometric_safety(structure: Structure, analysis: AnalysisSection, log: Log | None = None) -> GeometricSafety | None:
+def geometric_safety(
+    structure: LoadedAssembly, analysis: AnalysisSection, log: Log | None = None
+) -> GeometricSafety | None:
     """The factor by which joints may shrink while the dead load is carried; None where none just carries it."""
     solves = 0
 
@@ -138,7 +140,7 @@ def _further(last: _Try) -> float:
     return float(np.clip(1.01 * (last.x - last.y / last.slope) if known else MOST, STEP * last.x, MOST))
 
 
-def _slope(structure: Structure, found: JointPressure) -> float:
+def _slope(structure: LoadedAssembly, found: JointPressure) -> float:
     """dp/ds at fixed forces and mechanism: −f·dv/ds; nan without them."""
     mechanics: Mechanics | None = found.solution.mechanics
     if mechanics is None:

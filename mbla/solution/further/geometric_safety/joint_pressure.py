@@ -18,7 +18,7 @@ import numpy as np
 from mbla.deck.sections.analysis import AnalysisSection
 from mbla.solution.cone_solvers.cone_solution import Log
 from mbla.solution.further.geometric_safety.reference_pressure import pressed_by, unit_of_pressure
-from mbla.solution.further.sensitivity.structures import Structure
+from mbla.solution.further.sensitivity.structures import LoadedAssembly
 from mbla.solution.sequence.sequence import analysed
 from mbla.solution.settings import solver_settings
 from mbla.solution.solution import WITH_VALUE, Checks, Solution, Status
@@ -40,7 +40,7 @@ class JointPressure:
     solves  : of programs until one stood
     """
 
-    posed: Structure
+    posed: LoadedAssembly
     solution: Solution
     checks: Checks
     status: Status
@@ -66,7 +66,7 @@ class JointPressure:
         return self.checks.static_bound - self.reference_pressure, self.checks.kinematic_bound - self.reference_pressure
 
 
-def joint_pressure(structure: Structure, analysis: AnalysisSection, log: Log | None = None) -> JointPressure:
+def joint_pressure(structure: LoadedAssembly, analysis: AnalysisSection, log: Log | None = None) -> JointPressure:
     """The greatest pressure for the dead load of a load case, by associative flow."""
     own = analysis.model_copy(update={"flow_rule": "associative", "standing": False, "scheme": "auto"})
     settings, unit = solver_settings(own), unit_of_pressure(structure)

@@ -22,7 +22,7 @@ from mbla.arrays import FloatArray
 from mbla.model.model import Joint
 from mbla.model.ties.moved import elongations
 from mbla.program.yield_conditions import YieldLimits
-from mbla.solution.further.sensitivity.structures import Structure
+from mbla.solution.further.sensitivity.structures import LoadedAssembly
 from mbla.solution.solution import Mechanics, Solution
 from mbla.solution.verification.case import Case
 from mbla.solution.verification.interface_laws import crushing_power
@@ -56,7 +56,7 @@ class State:
     contact_model: str
 
 
-def state_of(structure: Structure, solution: Solution, associative: Mechanics) -> State:
+def state_of(structure: LoadedAssembly, solution: Solution, associative: Mechanics) -> State:
     """The associative state of a solution."""
     motions = associative.interface_motions
     case = _case(structure, motions, solution.contact_model)
@@ -80,12 +80,12 @@ def state_of(structure: Structure, solution: Solution, associative: Mechanics) -
     )
 
 
-def _case(structure: Structure, motions: FloatArray | None, contact_model: str) -> Case:
+def _case(structure: LoadedAssembly, motions: FloatArray | None, contact_model: str) -> Case:
     parts = structure.model, structure.contacts, structure.load_case
     return Case(*parts) if motions is None else InterfaceCase(*parts, contact_model)
 
 
-def lagrangian(structure: Structure, state: State) -> float:
+def lagrangian(structure: LoadedAssembly, state: State) -> float:
     """L for the forces and the motion of a state, in a structure that may be another than the one they solve."""
     case = _case(structure, state.motions, state.contact_model)
     motion = structure.moved_along(state.mechanism, state.centroids)
@@ -97,7 +97,7 @@ def lagrangian(structure: Structure, state: State) -> float:
     return given - float((state.forces * v).sum()) + of_ties + resistance(structure, state)
 
 
-def resistance(structure: Structure, state: State) -> float:
+def resistance(structure: LoadedAssembly, state: State) -> float:
     """f·w and what joints and ties dissipate: all in which their strengths are, and linear in each of them."""
     case = _case(structure, state.motions, state.contact_model)
     limits: YieldLimits = case.limits
@@ -119,13 +119,13 @@ def resistance(structure: Structure, state: State) -> float:
     return total
 
 
-def load_power(structure: Structure, state: State) -> tuple[float, float]:
+def load_power(structure: LoadedAssembly, state: State) -> tuple[float, float]:
     """Power of dead and of live load."""
     case, mechanism = structure.load_case, state.mechanism
     return power(case.dead_load, mechanism), power(case.live_load, mechanism)
 
 
-def pressure_on(structure: Structure, state: State, law: Joint) -> float:
+def pressure_on(structure: LoadedAssembly, state: State, law: Joint) -> float:
     """Mean pressure on the joints of a law: a step for a strength that is zero; 1 where nothing presses."""
     contacts = structure.contacts
     here = np.array(contacts.joint_names)[contacts.joints[contacts.interface_of_point]] == law.name

@@ -31,7 +31,7 @@ from mbla.solution.further.sensitivity.lagrangian import (
     state_of,
 )
 from mbla.solution.further.sensitivity.slopes import Side, Slope
-from mbla.solution.further.sensitivity.structures import Structure, guides_allow, structure_with
+from mbla.solution.further.sensitivity.structures import LoadedAssembly, guides_allow, structure_with
 from mbla.solution.solution import Checks, Solution
 from mbla.solution.thresholds import GAP_TOLERANCE
 
@@ -58,11 +58,11 @@ TIE = "tie"
 """before the name of a tie whose capacity is a parameter, which need not be a key of the deck"""
 
 
-Posed: TypeAlias = Callable[[Structure], Structure]
+Posed: TypeAlias = Callable[[LoadedAssembly], LoadedAssembly]
 """A structure with the loads of a problem"""
 
 
-def _as_it_is(structure: Structure) -> Structure:
+def _as_it_is(structure: LoadedAssembly) -> LoadedAssembly:
     return structure
 
 
@@ -78,11 +78,11 @@ def sensitivity_of(
     against = why_no_sensitivity(load_case, solution, checks)
     if against:
         return (), (no_sensitivity(against),)
-    return tuple(slopes(deck, Structure(assembly, load_case), solution)), ()
+    return tuple(slopes(deck, LoadedAssembly(assembly, load_case), solution)), ()
 
 
 def slope_by(
-    deck: Deck, structure: Structure, solution: Solution, checks: Checks, path: KeyPath, posed: Posed = _as_it_is
+    deck: Deck, structure: LoadedAssembly, solution: Solution, checks: Checks, path: KeyPath, posed: Posed = _as_it_is
 ) -> float:
     """The slope by the number at one key path, whatever the deck asks for; nan where there is none.
 
@@ -107,7 +107,7 @@ def why_no_sensitivity(load_case: LoadCase, solution: Solution, checks: Checks) 
     return ""
 
 
-def slopes(deck: Deck, structure: Structure, solution: Solution) -> Iterator[Slope]:
+def slopes(deck: Deck, structure: LoadedAssembly, solution: Solution) -> Iterator[Slope]:
     """Of each parameter in turn, in the order in which the deck asks for them."""
     assert solution.associative is not None
     state, asked = state_of(structure, solution, solution.associative), deck.analysis.sensitivity
@@ -121,7 +121,7 @@ def slopes(deck: Deck, structure: Structure, solution: Solution) -> Iterator[Slo
             yield _slope(state, name, 1.0, "", -power, Side.BOTH)
 
 
-def _of_ties(deck: Deck, structure: Structure, state: State) -> Iterator[Slope]:
+def _of_ties(deck: Deck, structure: LoadedAssembly, state: State) -> Iterator[Slope]:
     """By the greatest force of each tie, tension or push or either: the rate at which it gives way to it, exactly."""
     ties, unit = structure.model.ties, deck.units.force
     for row, name in enumerate(ties.names):
@@ -131,7 +131,7 @@ def _of_ties(deck: Deck, structure: Structure, state: State) -> Iterator[Slope]:
         yield _slope(state, f"{TIE} {name}", value, unit, rate, Side.BOTH if value > 0.0 else Side.ABOVE)
 
 
-def _of_path(deck: Deck, structure: Structure, state: State, path: KeyPath, posed: Posed) -> Slope:
+def _of_path(deck: Deck, structure: LoadedAssembly, state: State, path: KeyPath, posed: Posed) -> Slope:
     """Of a strength of a joint law, which is exact, or of any other number."""
     law = structure.model.joints.get(str(path[1])) if path[0] == "joints" and len(path) == 3 else None
     if law is not None and path[2] in LAWS:
@@ -139,7 +139,7 @@ def _of_path(deck: Deck, structure: Structure, state: State, path: KeyPath, pose
     return _of_key(deck, structure, state, path, posed)
 
 
-def _usual(deck: Deck, structure: Structure) -> Iterator[KeyPath]:
+def _usual(deck: Deck, structure: LoadedAssembly) -> Iterator[KeyPath]:
     """Strengths of the joint laws in use, as far as they may change, and the densities of all materials."""
     for name, law in deck.content.joints.items():
         if name not in structure.contacts.joint_names:
@@ -157,7 +157,7 @@ def _slope(state: State, name: str, value: float, unit: str, slope: float, side:
     return Slope(name, value, unit, slope, slope * value / factor if factor != 0.0 else math.nan, side, remark)
 
 
-def _of_law(deck: Deck, structure: Structure, state: State, law: Joint, path: KeyPath) -> Slope:
+def _of_law(deck: Deck, structure: LoadedAssembly, state: State, law: Joint, path: KeyPath) -> Slope:
     """Of a strength of a joint law, which the Lagrangian is linear in."""
     key = str(path[2])
     field = "friction" if key == "friction_angle" else key
@@ -185,7 +185,7 @@ def _side(law: JointLaw, key: str) -> Side:
     return Side.BELOW if at_apex and key != "compressive_strength" else Side.BOTH
 
 
-def _of_key(deck: Deck, structure: Structure, state: State, path: KeyPath, posed: Posed) -> Slope:
+def _of_key(deck: Deck, structure: LoadedAssembly, state: State, path: KeyPath, posed: Posed) -> Slope:
     """Of any number in the deck, by structures a step below and above."""
     value, unit = number_at(deck.content, path), unit_of([path], deck.units)
     assert value is not None  # the deck was checked for that

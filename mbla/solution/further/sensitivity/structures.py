@@ -32,7 +32,7 @@ OFF_GUIDE = 1e-9
 
 
 @dataclass(frozen=True)
-class Structure:
+class LoadedAssembly:
     """An assembly under one load case, in which no support settles."""
 
     assembly: Assembly
@@ -59,7 +59,7 @@ class Structure:
         return np.hstack([motion[:, :3] + np.cross(motion[:, 3:], arms), motion[:, 3:]])
 
 
-def structure_with(deck: Deck, text: str, like: Structure, section: str) -> Structure | str:
+def structure_with(deck: Deck, text: str, like: LoadedAssembly, section: str) -> LoadedAssembly | str:
     """The structure with an override ``key.path=value``, its contact points in the order of the one that it is like.
 
     section : of the deck, that the override changes
@@ -85,16 +85,16 @@ def structure_with(deck: Deck, text: str, like: Structure, section: str) -> Stru
     if not np.array_equal(model.ties.bodies, like.model.ties.bodies):
         return "blocks that ties hold"
     matched = assembly.contacts if same else matched_contacts(assembly.contacts, like)
-    return "contacts" if matched is None else Structure(replace(assembly, contacts=matched), case)
+    return "contacts" if matched is None else LoadedAssembly(replace(assembly, contacts=matched), case)
 
 
-def guides_allow(structure: Structure, motion: FloatArray) -> bool:
+def guides_allow(structure: LoadedAssembly, motion: FloatArray) -> bool:
     """Whether guided blocks may still move so."""
     arms = lever_arms(structure.model, structure.contacts)
     return off_guides(structure.model, motion, arms) <= OFF_GUIDE
 
 
-def matched_contacts(contacts: Contacts, like: Structure) -> Contacts | None:
+def matched_contacts(contacts: Contacts, like: LoadedAssembly) -> Contacts | None:
     """The same contacts in the order of others and in frames turned along with their normals; None where they differ.
 
     Tangents need not follow the rule of the search: frames turn by the least rotation that takes the normals along.

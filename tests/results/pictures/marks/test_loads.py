@@ -14,7 +14,7 @@ from mbla.results.pictures.marks.loads import MANY, arrow_steps, live_marks, mar
 from mbla.results.pictures.marks.marks import Mark
 from mbla.results.pictures.options import PictureOptions
 from mbla.results.pictures.page import CASES, DEAD_LOAD, LIVE_LOAD
-from mbla.results.pictures.scene import Scene, scene_of
+from mbla.results.pictures.scene import PictureScene, scene_of
 from mbla.results.results import Results
 from tests.results.pictures.rows_and_columns import row_of_blocks
 from tests.results.synthetic import G, standing_at, tower_model, tower_results
@@ -23,7 +23,7 @@ GRAVITY = replace(without_forces("gravity (0, 0, -9.81) m/s2"), on_masses=True)
 FORCE = without_forces("force")
 
 
-def scene(results: Results | None = None, kind: str = "model") -> Scene:
+def scene(results: Results | None = None, kind: str = "model") -> PictureScene:
     results = results or tower_results()
     return scene_of(results, results.cases[0], PictureOptions(), kind)
 

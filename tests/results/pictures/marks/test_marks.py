@@ -13,7 +13,7 @@ from mbla.results.pictures.marks.forces import force_marks
 from mbla.results.pictures.marks.joints import THIN, interface_sides, joint_marks
 from mbla.results.pictures.marks.marks import Mark, arrows, moved, rings, segments
 from mbla.results.pictures.options import PictureOptions
-from mbla.results.pictures.scene import Scene, scene_of
+from mbla.results.pictures.scene import PictureScene, scene_of
 from mbla.results.results import Results
 from mbla.solution.solution import ContactMode
 from tests.results.pictures.rows_and_columns import column_of_blocks, row_of_blocks, two_on_one
@@ -22,7 +22,7 @@ from tests.results.synthetic import tower_results
 FRICTION = 0.65
 
 
-def scene(results: Results | None = None, case: int = 0, kind: str = "mechanism") -> Scene:
+def scene(results: Results | None = None, case: int = 0, kind: str = "mechanism") -> PictureScene:
     results = results or tower_results()
     return scene_of(results, results.cases[case], PictureOptions(), kind)
 
@@ -88,7 +88,7 @@ def test_in_space_joints_within_a_part_are_not_drawn() -> None:
     assert joint_marks(shown, flat=False) == []
 
 
-def sliding(*motion: float, mode: int = 1) -> Scene:
+def sliding(*motion: float, mode: int = 1) -> PictureScene:
     """The tower moves on its base as its four corners there do: by a mode of contact points, 1 for sliding."""
     results = tower_results()
     mechanism, modes, velocities = np.zeros((3, 6)), np.zeros(8, dtype=np.int64), np.zeros((8, 3))
@@ -151,7 +151,7 @@ def test_rings_turn_by_the_right_hand() -> None:
 # --- Forces ---------------------------------------------------------------------------------------------------------
 
 
-def pressed(right: float, shear: float = 0.0) -> Scene:
+def pressed(right: float, shear: float = 0.0) -> PictureScene:
     """One block of which the right edge carries a share of 4 N; shear along x, as a share of what friction gives."""
     normal = 2.0 * np.array([1 - right, right, right, 1 - right])
     forces = np.column_stack([normal, shear * FRICTION * normal, 0 * normal])

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from mbla.arrays import FloatArray
 from mbla.solution.cone_solvers.interior_point.condensation import Condensation, refined_solution
-from mbla.solution.cone_solvers.interior_point.cones import ConeData, ConeProduct, Scaling, cone_data
+from mbla.solution.cone_solvers.interior_point.cones import ConeData, ConeProduct, NesterovToddScaling, cone_data
 from tests.solution.cone_solvers.interior_point.programs import Known, inside, known_program
 
 quick = settings(max_examples=25, derandomize=True)
@@ -23,7 +23,7 @@ def kinematic(seed: int, quadratic: bool) -> Known:
     return known_program(rng, int(rng.integers(4, 13)), int(rng.integers(0, 4)), product, quadratic)
 
 
-def system(data: ConeData, scaling: Scaling) -> FloatArray:
+def system(data: ConeData, scaling: NesterovToddScaling) -> FloatArray:
     """[Q + GᵀW⁻²G, Eᵀ; E, 0], dense."""
     bent = np.column_stack([scaling.inverse(column) for column in data.cone_matrix.toarray().T])
     equations = data.equations.toarray()
@@ -40,7 +40,7 @@ def test_condensed_and_refined_is_the_solution_of_the_whole_system(seed: int, di
     data = cone_data(kinematic(seed, quadratic).program)
     condensation = Condensation(data, "qdldl")
     s, z = (inside(rng, data.product, distance) for _ in range(2))
-    scaling = Scaling.of(data.product, s, z)
+    scaling = NesterovToddScaling.of(data.product, s, z)
     assert condensation.factorize(scaling)
     r_x, r_e = rng.normal(size=len(data.cost)), rng.normal(size=len(data.equation_rhs))
     x, y = refined_solution(data, condensation, scaling, r_x, r_e)
@@ -60,8 +60,8 @@ def test_one_condensation_serves_one_scaling_after_another() -> None:
     right = rng.normal(size=len(data.cost)), rng.normal(size=len(data.equation_rhs))
     used, fresh = Condensation(data, "qdldl"), Condensation(data, "qdldl")
     for pair in pairs:
-        assert used.factorize(Scaling.of(data.product, *pair))
-    assert fresh.factorize(Scaling.of(data.product, *pairs[1]))
+        assert used.factorize(NesterovToddScaling.of(data.product, *pair))
+    assert fresh.factorize(NesterovToddScaling.of(data.product, *pairs[1]))
     for one, other in zip(used.solve(*right), fresh.solve(*right), strict=True):
         np.testing.assert_array_equal(one, other)
 
@@ -69,7 +69,7 @@ def test_one_condensation_serves_one_scaling_after_another() -> None:
 def test_zero_has_the_solution_zero() -> None:
     data = cone_data(kinematic(1, False).program)
     condensation = Condensation(data, "qdldl")
-    scaling = Scaling.identity(data.product)
+    scaling = NesterovToddScaling.identity(data.product)
     assert condensation.factorize(scaling)
     x, y = refined_solution(data, condensation, scaling, np.zeros_like(data.cost), np.zeros_like(data.equation_rhs))
     assert not x.any()
@@ -78,7 +78,7 @@ def test_zero_has_the_solution_zero() -> None:
 
 def test_a_scaling_that_is_no_number_is_a_breakdown() -> None:
     data = cone_data(kinematic(2, False).program)
-    scaling = Scaling.identity(data.product)
-    spoiled = Scaling(data.product, scaling.line, scaling.w, np.full_like(scaling.eta, np.nan))
+    scaling = NesterovToddScaling.identity(data.product)
+    spoiled = NesterovToddScaling(data.product, scaling.line, scaling.w, np.full_like(scaling.eta, np.nan))
     with np.errstate(invalid="ignore"):
         assert not Condensation(data, "qdldl").factorize(spoiled)

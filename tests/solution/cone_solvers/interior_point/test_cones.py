@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mbla.arrays import FloatArray
-from mbla.solution.cone_solvers.interior_point.cones import ConeProduct, Scaling, determinant
+from mbla.solution.cone_solvers.interior_point.cones import ConeProduct, NesterovToddScaling, determinant
 from tests.solution.cone_solvers.interior_point.programs import inside, program_order, vector_of
 
 quick = settings(max_examples=40, derandomize=True)
@@ -114,7 +114,7 @@ def test_clipping_bounds_the_eigenvalues_and_leaves_those_within(seed: int, prod
 # --- The scaling of Nesterov and Todd: W z = W⁻¹ s, near the border and away from it ---------------------------------
 
 
-def dense(scaling: Scaling) -> FloatArray:
+def dense(scaling: NesterovToddScaling) -> FloatArray:
     """W as a matrix."""
     identity = np.eye(scaling.product.size)
     return np.column_stack([scaling.times(column) for column in identity])
@@ -126,7 +126,7 @@ def test_primal_and_dual_look_alike_from_the_middle(seed: int, product: ConeProd
     """To rounding times the condition of W, which is that of s and z to the power of a half."""
     rng = np.random.default_rng(seed)
     s, z = inside(rng, product, one), inside(rng, product, other)
-    scaling = Scaling.of(product, s, z)
+    scaling = NesterovToddScaling.of(product, s, z)
     middle = scaling.times(z)
     spread = 1e-15 / min(one, other)
     np.testing.assert_allclose(scaling.inverse(s), middle, rtol=0.0, atol=10 * spread * np.abs(middle).max() + 1e-13)
@@ -138,7 +138,7 @@ def test_primal_and_dual_look_alike_from_the_middle(seed: int, product: ConeProd
 @given(seed=seeds, product=products, one=scaled, other=scaled)
 def test_times_and_inverse_undo_each_other(seed: int, product: ConeProduct, one: float, other: float) -> None:
     rng = np.random.default_rng(seed)
-    scaling = Scaling.of(product, inside(rng, product, one), inside(rng, product, other))
+    scaling = NesterovToddScaling.of(product, inside(rng, product, one), inside(rng, product, other))
     v = vector_of(rng, product)
     size = float(np.linalg.norm(dense(scaling), 2))
     stretched = max(size, 1.0) * 1e-13 / min(one, other)
@@ -150,7 +150,7 @@ def test_times_and_inverse_undo_each_other(seed: int, product: ConeProduct, one:
 @given(seed=seeds, product=products, one=scaled, other=scaled)
 def test_it_is_symmetric_and_keeps_the_cones(seed: int, product: ConeProduct, one: float, other: float) -> None:
     rng = np.random.default_rng(seed)
-    scaling = Scaling.of(product, inside(rng, product, one), inside(rng, product, other))
+    scaling = NesterovToddScaling.of(product, inside(rng, product, one), inside(rng, product, other))
     matrix = dense(scaling)
     np.testing.assert_allclose(matrix, matrix.T, rtol=0.0, atol=1e-14 * np.abs(matrix).max())
     assert np.linalg.eigvalsh(matrix).min() > -1e-14 * np.abs(matrix).max()

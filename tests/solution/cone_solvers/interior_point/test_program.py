@@ -14,8 +14,8 @@ from mbla.errors import SolverError
 from mbla.program.kinematic import ConeProgram, kinematic_form
 from mbla.solution.cone_solvers.cone_vectors import ConeVectors
 from mbla.solution.cone_solvers.interior_point.condensation import Condensation
-from mbla.solution.cone_solvers.interior_point.cones import ConeProduct, Scaling, cone_data
-from mbla.solution.cone_solvers.interior_point.iterates import Ended, Outcome, Run
+from mbla.solution.cone_solvers.interior_point.cones import ConeProduct, NesterovToddScaling, cone_data
+from mbla.solution.cone_solvers.interior_point.iterates import Ended, IterationControl, Outcome
 from mbla.solution.cone_solvers.interior_point.method import solve_cone_program
 from mbla.solution.cone_solvers.interior_point.program import CondensedProgram, fits
 from mbla.solution.settings import SolverSettings
@@ -27,7 +27,7 @@ quick = settings(max_examples=25, derandomize=True)
 
 seeds = st.integers(0, 2**32 - 1)
 
-RUN = Run(1e-9, 100, None, lambda number, measures, length: None)
+RUN = IterationControl(1e-9, 100, None, lambda number, measures, length: None)
 
 
 def kinematic(seed: int, quadratic: bool) -> Known:
@@ -177,12 +177,12 @@ def test_the_best_iterate_is_kept_where_the_method_breaks_down() -> None:
 
         left = 8
 
-        def factorize(self, scaling: Scaling) -> bool:
+        def factorize(self, scaling: NesterovToddScaling) -> bool:
             self.left -= 1
             return self.left >= 0 and super().factorize(scaling)
 
     seen: list[float] = []
-    run = Run(1e-9, 100, None, lambda number, measures, length: seen.append(measures.worst))
+    run = IterationControl(1e-9, 100, None, lambda number, measures, length: seen.append(measures.worst))
     condensation = Failing(data, "qdldl")
     ended: Ended = solve_cone_program(data, condensation, run)
     assert ended.outcome is Outcome.NUMERICAL
