@@ -7,7 +7,7 @@ that differ by more than :data:`SAME` are no single answer: the least of them co
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 
 from mbla.deck.sections.analysis import AnalysisSection
 from mbla.solution.associative.solve_associative import AssociativeResult
@@ -21,22 +21,12 @@ LOW, SAME = 0.1, 0.05
 stiffnesses may differ."""
 
 
-def paths_beside(
-    found: PathOfPart,
-    associative: AssociativeResult,
-    analysis: AnalysisSection,
-    follow: Callable[[float], PathOfPart],
-) -> dict[float, PathOfPart]:
-    """Paths that the analysis, or doubt, asks for beside the one that was found, by ratio of stiffness.
-
-    follow : the path of joints of a ratio
-    """
+def ratios_asked(found: PathOfPart, associative: AssociativeResult, analysis: AnalysisSection) -> tuple[float, ...]:
+    """Ratios of stiffness of paths that the analysis, or doubt, asks for beside the one that was found."""
     ratio = analysis.path.ratio
     if analysis.accuracy == "reference" and found.path is not None:
-        return {other: follow(other) for other in ratios_beside(ratio)}
-    if may_hang_on_stiffness(found, associative):
-        return {other: follow(other) for other in (second_ratio(ratio),)}
-    return {}
+        return ratios_beside(ratio)
+    return (second_ratio(ratio),) if may_hang_on_stiffness(found, associative) else ()
 
 
 def may_hang_on_stiffness(found: PathOfPart, associative: AssociativeResult) -> bool:

@@ -8,8 +8,7 @@ from __future__ import annotations
 
 import itertools
 import time
-from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -27,7 +26,7 @@ from mbla.solution.nonassociative.by_stiffness import (
     another_answer,
     load_factors,
     may_hang_on_stiffness,
-    paths_beside,
+    ratios_asked,
 )
 from mbla.solution.nonassociative.collapse_state import CollapseState, FlowResult
 from mbla.solution.nonassociative.locking import recession_cone
@@ -51,10 +50,17 @@ def solve_by_elastic_path(
     interfaces : of the model that have a law of their own
     """
     paths = Paths(program, associative, slope, settings, log, interfaces, list(associative.programs))
-    first = settings.analysis.path.ratio
-    found, state = path_with_state(program, lambda extent: paths.follow(first, extent), paths.state_on, interfaces)
-    shown = _other_stiffness(paths, ShownPath({first: found}, first, state, *_judged(paths, found, state)))
-    found, state, status, reason = shown.path, shown.state, shown.status, shown.reason
+    ratio = settings.analysis.path.ratio
+    found, state = path_with_state(program, lambda extent: paths.follow(ratio, extent), paths.state_on, interfaces)
+    status, reason = _judged(paths, found, state)
+    if found.stop is not Stop.LATE and status in (*WITH_VALUE, Status.UNBOUNDED):
+        other = _other_answer(paths, found)
+        if other is not None:
+            least, reason = paths.followed[other], _hangs(paths, ratio, other)
+            lower = paths.state_on(least) if least.load_factor < found.load_factor else None
+            if lower is not None:
+                ratio, found, state = other, least, lower
+            status = Status.NOT_VERIFIED if state is None else Status.APPROXIMATE
     value = np.nan if state is None else program.scaling.load_factor(state.load_factor)
     if status is Status.SOLVED and found.gains(UNENDED, paths.above):
         status, reason = Status.APPROXIMATE, UNENDED_PATH.format(f"{value:.6g}", 100.0 * found.gain)
@@ -68,7 +74,7 @@ def solve_by_elastic_path(
         path_end=found.stop.value,
         path_gain=found.gain,
         path_last=found.moving * program.scaling.live,
-        by_stiffness=load_factors(shown.followed, shown.ratio, program.scaling.live, paths.above),
+        by_stiffness=load_factors(paths.followed, ratio, program.scaling.live, paths.above),
     )
 
 
@@ -79,6 +85,7 @@ class Paths:
     slope      : (n_points,) tangent of the angle by which joints lift as they slide
     interfaces : of the model that have a law of their own
     records    : of programs so far, to which each path adds its own
+    followed   : the last path of each ratio of stiffness
     """
 
     program: Program
@@ -88,6 +95,7 @@ class Paths:
     log: Log
     interfaces: Interfaces
     records: list[ProgramRecord]
+    followed: dict[float, PathOfPart] = field(default_factory=dict)
 
     @property
     def above(self) -> float:
@@ -106,6 +114,7 @@ class Paths:
         by = replace(PathSettings.of(self.settings), ratio=ratio, watch=watch)
         dilates = self.slope if np.any(self.slope) else None
         path = path_of_part(self.program, self.associative, by, dilates, self.interfaces, extent=extent)
+        self.followed[ratio] = path
         self.records.append(_record(number, path, live, time.perf_counter() - started))
         return path
 
@@ -114,22 +123,6 @@ class Paths:
         if path.stop is Stop.AT_ONCE:
             return state_at_once(self.program, self.associative.state, self.slope, self.settings, self.log)
         return state_of_path(self.program, path, self.settings, self.log, self.interfaces)
-
-
-@dataclass(frozen=True)
-class ShownPath:
-    """The path whose state is shown, among those that were followed, by ratio of stiffness."""
-
-    followed: Mapping[float, PathOfPart]
-    ratio: float
-    state: CollapseState | None
-    status: Status
-    reason: str
-
-    @property
-    def path(self) -> PathOfPart:
-        """The one that is shown."""
-        return self.followed[self.ratio]
 
 
 def _judged(paths: Paths, found: PathOfPart, state: CollapseState | None) -> tuple[Status, str]:
@@ -143,22 +136,20 @@ def _judged(paths: Paths, found: PathOfPart, state: CollapseState | None) -> tup
     return status, reason
 
 
-def _other_stiffness(paths: Paths, shown: ShownPath) -> ShownPath:
-    """Held against joints of other stiffnesses; where these decide, the path of the least load factor is shown."""
-    found, associative, scaling = shown.path, paths.associative, paths.program.scaling
-    if found.stop is Stop.LATE or shown.status not in (*WITH_VALUE, Status.UNBOUNDED):
-        return shown
-    followed = {**shown.followed, **paths_beside(found, associative, paths.settings.analysis, paths.follow)}
-    nothing, doubtful = NEAR_ZERO * paths.program.dead_over_live, may_hang_on_stiffness(found, associative)
-    other = another_answer(followed, shown.ratio, nothing, paths.above, doubtful=doubtful)
-    if other is None:
-        return replace(shown, followed=followed)
-    one, two = (f"{followed[ratio].load_factor * scaling.live:.6g}" for ratio in (shown.ratio, other))
-    reason = HANGS.format(one, f"{shown.ratio:g}", two, f"{other:g}")
-    lower = followed[other].load_factor < found.load_factor
-    least = paths.state_on(followed[other]) if lower else None
-    ratio, state = (shown.ratio, shown.state) if least is None else (other, least)
-    return ShownPath(followed, ratio, state, Status.NOT_VERIFIED if state is None else Status.APPROXIMATE, reason)
+def _other_answer(paths: Paths, found: PathOfPart) -> float | None:
+    """The ratio of stiffness whose path comes to another load factor, the least; None where that does not matter."""
+    shown, program = paths.settings.analysis.path.ratio, paths.program
+    for ratio in ratios_asked(found, paths.associative, paths.settings.analysis):
+        paths.follow(ratio)
+    nothing, doubtful = NEAR_ZERO * program.dead_over_live, may_hang_on_stiffness(found, paths.associative)
+    return another_answer(paths.followed, shown, nothing, paths.above, doubtful=doubtful)
+
+
+def _hangs(paths: Paths, shown: float, other: float) -> Message:
+    """How stiff joints are decides."""
+    live = paths.program.scaling.live
+    one, two = (f"{paths.followed[ratio].load_factor * live:.6g}" for ratio in (shown, other))
+    return HANGS.format(one, f"{shown:g}", two, f"{other:g}")
 
 
 def _record(number: int, path: PathOfPart, live: float, seconds: float) -> ProgramRecord:
