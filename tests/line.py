@@ -13,7 +13,7 @@ from mbla.deck import Deck, read_deck
 from mbla.model import Model, build_model
 from mbla.model.model import LoadCase
 from mbla.program import Program, assemble
-from mbla.program.reductions import allowed_reductions, reduce_program
+from mbla.program.reductions import ModelSize, Reduced, allowed_reductions, reduce_program
 from mbla.results.provenance import with_loads_found
 from mbla.results.results import CaseResult
 from mbla.results.status_file import StatusFile
@@ -76,6 +76,12 @@ class Line:
     def assembly(self) -> Assembly:
         """Of model and contacts, as they are."""
         return Assembly(self.model, self.contacts)
+
+
+def unreduced(program: Program, contacts: Contacts) -> Reduced:
+    """The program as it is."""
+    size = ModelSize(3, 0, 1, len(program.facts.free), program.n_points, 0)
+    return Reduced((program,), size, contacts.interface_of_point)
 
 
 def line_of(text: str, *overrides: str, case: int = 0) -> Line:

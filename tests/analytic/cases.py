@@ -11,7 +11,6 @@ from mbla.deck import read_deck
 from mbla.deck.content import Expectation
 from mbla.model import build_model
 from mbla.program import assemble
-from mbla.program.reductions import unreduced
 from mbla.solution.proof.claim import with_proof
 from mbla.solution.settings import solver_settings
 from mbla.solution.solution import Checks, Solution, Status
@@ -19,6 +18,7 @@ from mbla.solution.solve import solve_parts
 from mbla.solution.verification.verify import verify
 from mbla.solution.verification.verify_points import verified_status
 from tests.decks.folder import BENCHMARKS
+from tests.line import unreduced
 
 ASSOCIATIVE = "analysis.flow_rule=associative"
 

@@ -1,6 +1,6 @@
 """Reductions: planar, mirrored and separate parts found by themselves, with the exact way back to the full model."""
 
-from mbla.program.reductions.reduce import Reduced, reduce_program, unreduced
+from mbla.program.reductions.reduce import Reduced, reduce_program
 from mbla.program.reductions.steps import ModelSize, ProgramSize, ReductionOutcome, ReductionStep, allowed_reductions
 
 __all__ = [
@@ -11,5 +11,4 @@ __all__ = [
     "ReductionStep",
     "allowed_reductions",
     "reduce_program",
-    "unreduced",
 ]

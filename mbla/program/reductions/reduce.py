@@ -197,9 +197,3 @@ def _first_mirror(part: ProgramGeometry, given: Mirrors) -> MirrorPlane | None:
             return mirror
         first = first or mirror
     return first
-
-
-def unreduced(program: Program, contacts: Contacts) -> Reduced:
-    """The program as it is."""
-    size = ModelSize(3, 0, 1, len(program.facts.free), program.n_points, 0)
-    return Reduced((program,), size, contacts.interface_of_point)

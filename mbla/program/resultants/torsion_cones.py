@@ -7,9 +7,10 @@ from dataclasses import replace
 import numpy as np
 import scipy.sparse as sp
 
-from mbla.arrays import BoolArray, FloatArray
+from mbla.arrays import BoolArray
 from mbla.program.conditions import Conditions
 from mbla.program.program import Program
+from mbla.program.resultants.resultants_map import resultants_of_points
 from mbla.program.resultants.torsion import torsion_rows
 from mbla.program.resultants.twisting_interfaces import TwistingInterfaces
 
@@ -28,7 +29,9 @@ def torsion_conditions(
     if not n:
         return None
     lengths[limits.interfaces] = limits.radii
-    map_ = sp.csr_array(_resultants(full, interfaces, lengths) @ forces)
+    owner = interfaces.interface_of_point  # moments are over the length of their interface
+    places = interfaces.places / lengths[owner][:, None]
+    map_ = sp.csr_array(resultants_of_points(places, owner, len(chosen), full.scaling.units) @ forces)
     unit = float(np.abs(sp.csr_array(map_[(6 * limits.interfaces)]).data).max())
     without_unit = replace(
         limits,
@@ -48,20 +51,3 @@ def torsion_conditions(
         reserves=(),
         single=np.full(len(rows.cost), -1),
     )
-
-
-def _resultants(full: Program, interfaces: TwistingInterfaces, lengths: FloatArray) -> sp.csr_array:
-    """N, T1, T2 and moments about normal, tangent 1 and tangent 2 at the centroid over a length, (6 n, 3 n_points).
-
-    lengths : (n_interfaces,)
-    """
-    owner, n = interfaces.interface_of_point, len(lengths)
-    x1, x2 = (interfaces.places / lengths[owner][:, None]).T
-    point, one = np.arange(len(owner)), np.ones(len(owner))
-    # M_n = x1 T2 − x2 T1; M_1 = x2 N; M_2 = −x1 N
-    terms = [(0, 0, one), (1, 1, one), (2, 2, one), (3, 2, x1), (3, 1, -x2), (4, 0, x2), (5, 0, -x1)]
-    rows = np.concatenate([6 * owner + row for row, _, _ in terms])
-    columns = np.concatenate([3 * point + column for _, column, _ in terms])
-    units = np.broadcast_to(full.scaling.units, owner.shape)
-    values = np.concatenate([units * value for _, _, value in terms])
-    return sp.csr_array(sp.coo_array((values, (rows, columns)), shape=(6 * n, 3 * len(owner))))

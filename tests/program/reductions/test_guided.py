@@ -13,7 +13,7 @@ from mbla.contacts import find_contacts
 from mbla.deck import read_deck
 from mbla.model import build_model
 from mbla.program import assemble
-from mbla.program.reductions import ReductionOutcome, reduce_program, unreduced
+from mbla.program.reductions import ReductionOutcome, reduce_program
 from mbla.program.reductions.restrict import _projector
 from mbla.program.reductions.steps import ReductionStep, ReductionSwitches, glued_step, size_of
 from mbla.solution.settings import solver_settings
@@ -21,7 +21,7 @@ from mbla.solution.solution import Standing, Status
 from mbla.solution.solve import solve_parts
 from mbla.solution.verification.verify import verify
 from mbla.solution.verification.verify_points import verified_status
-from tests.line import HEAD, case_of, cases_of, factor_of, line_of
+from tests.line import HEAD, case_of, cases_of, factor_of, line_of, unreduced
 
 DECK = """
 mbla: 1

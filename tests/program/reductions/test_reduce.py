@@ -10,7 +10,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from mbla.program.program import Program
-from mbla.program.reductions import Reduced, ReductionOutcome, reduce_program, unreduced
+from mbla.program.reductions import Reduced, ReductionOutcome, reduce_program
 from mbla.program.reductions.mirror import MirrorPlane
 from mbla.program.reductions.steps import ReductionSwitches
 from mbla.program.yield_conditions import yield_violation
@@ -18,7 +18,7 @@ from mbla.solution.associative.solve_associative import solve_associative
 from mbla.solution.full_model.mechanics import lifted
 from mbla.solution.nonassociative.collapse_state import CollapseState
 from mbla.solution.settings import SolverSettings
-from tests.line import BLOCK, HEAD, WALL, Line, line_of, verified
+from tests.line import BLOCK, HEAD, WALL, Line, line_of, unreduced, verified
 
 ARCH = (
     HEAD

@@ -9,13 +9,12 @@ import pytest
 import scipy.sparse as sp
 
 from mbla.program.program import Program
-from mbla.program.reductions import unreduced
 from mbla.program.stiffness_shares import shares_of
 from mbla.solution.flow.path_of_part import path_by
 from mbla.solution.flow.path_record import Stop
 from mbla.solution.nonassociative.moving_part import moving_part
 from tests.decks.folder import PATHS
-from tests.line import WALL, line_of
+from tests.line import WALL, line_of, unreduced
 from tests.solution.flow.paths import DEFAULT, case_of, load_factor_of
 from tests.solution.nonassociative.structures import FERRIS_3
 

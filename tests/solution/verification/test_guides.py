@@ -13,12 +13,12 @@ from mbla.model import build_model
 from mbla.model.guides import Guides, joined, rigid_motions, slide, turn
 from mbla.model.model import Model
 from mbla.program import assemble
-from mbla.program.reductions import unreduced
 from mbla.solution.settings import solver_settings
 from mbla.solution.solve import solve_parts
 from mbla.solution.verification.statics import allowed_motion, left_to_balance, off_guides
 from mbla.solution.verification.verify import verify
 from tests.decks.folder import BENCHMARKS
+from tests.line import unreduced
 from tests.results.synthetic import tower_model
 
 ARMS = np.array([1.0, 2.0, 0.5])
