@@ -199,7 +199,7 @@ class Touching:
         fresh = (new[of_interface] + within)[~stays]
         there, anew = self.points.at(pose), found.points.at(pose)
 
-        def mixed(mine: FloatArray, theirs: FloatArray) -> FloatArray:
+        def mixed(mine: np.ndarray, theirs: np.ndarray) -> np.ndarray:
             result = np.empty((len(stays), *theirs.shape[1:]), dtype=theirs.dtype)
             result[stays], result[~stays] = mine[old], theirs[fresh]
             return result
@@ -209,10 +209,8 @@ class Touching:
         outline, areas, centroids = contacts.outline.copy(), contacts.areas.copy(), contacts.centroids.copy()
         same = kept >= 0
         outline[same], areas[same] = mine.outline[kept[same]], mine.areas[kept[same]]
-        first = points[point_start[:-1][same]]
-        centroids[same] = (
-            first if not len(first) else np.add.reduceat(points, point_start[:-1])[same] / counts[same, None]
-        )
+        if same.any():
+            centroids[same] = np.add.reduceat(points, point_start[:-1])[same] / counts[same, None]
         contacts = replace(
             contacts,
             areas=areas,
@@ -223,14 +221,13 @@ class Touching:
             frames=frames,
             point_areas=mixed(mine.point_areas, contacts.point_areas),
         )
-        offsets = mixed(there.offsets, anew.offsets)
-        host = np.zeros(len(stays), dtype=np.bool_)
-        host[stays], host[~stays] = self.points.host[old], found.points.host[fresh]
-        bodies = contacts.bodies[of_interface]
+        placed, host = (
+            Placed(points, frames, mixed(there.offsets, anew.offsets)),
+            mixed(self.points.host, found.points.host),
+        )
+        carried = CarriedPoints.at_pose(self.points.centroids, contacts.bodies[of_interface], host, placed, pose)
         before = np.full(len(stays), -1)
         before[stays] = old
-        placed = Placed(points, frames, offsets)
-        carried = CarriedPoints.at_pose(self.points.centroids, bodies, host, placed, pose)
         return Touching(contacts, found.faces, carried, mixed(self.sizes, found.sizes), before, found.overlap)
 
     def _same_interfaces(self, found: Touching, slid: BoolArray) -> IntArray:

@@ -136,50 +136,51 @@ def strengthening_form(cases: Sequence[StrengthenedCase], costs: FloatArray, mos
 
     costs  : (k,) of a unit of capacity; most : (k,) in the unit of force of the programs, inf without a limit
     """
-    n, k = len(cases), len(costs)
+    n, k, every = len(cases), len(costs), range(len(cases))
     forms = tuple(kinematic_form(case.program, case.program.limits) for case in cases)
-    limited = np.flatnonzero(np.isfinite(most))
+    parts = [form.cone_program for form in forms]
+    limited, one = np.flatnonzero(np.isfinite(most)), sp.eye_array(k, format="csr")
     sizes = [len(case.program.dead_load) for case in cases]
-    local = [form.cone_program.matrix.shape[1] - size for form, size in zip(forms, sizes, strict=True)]
-    halves = [sp.csr_array(form.cone_program.matrix)[1 : 1 + form.cone_program.n_half_lines] for form in forms]
-    cones = [sp.csr_array(form.cone_program.matrix)[1 + form.cone_program.n_half_lines :] for form in forms]
-    rows: list[list[sp.csr_array]] = []
-
-    def row(**parts: sp.csr_array) -> None:
-        names = [*(f"u{c}" for c in range(n)), *(f"e{c}" for c in range(n)), "t", *(f"m{c}" for c in range(n))]
-        widths = [*sizes, *[k] * n, len(limited), *local]
-        height = next(iter(parts.values())).shape[0]
-        rows.append([parts.get(name, sp.csr_array((height, width))) for name, width in zip(names, widths, strict=True)])
-
-    one = sp.eye_array(k, format="csr")
-    for c in range(n):
-        row(**{f"u{c}": halves[c][:, : sizes[c]], f"m{c}": halves[c][:, sizes[c] :]})
-    for c, case in enumerate(cases):
-        row(**{f"u{c}": -sp.csr_array(case.pulls.T), f"e{c}": -one})
-    for c in range(n):
-        row(**{f"e{c}": -one})
-    row(**{f"e{c}": one for c in range(n)}, t=-one[:, limited])
-    if len(limited):
-        row(t=-sp.eye_array(len(limited), format="csr"))
-    n_lines = sum(each[0].shape[0] for each in rows)
-    for c in range(n):
-        row(**{f"u{c}": cones[c][:, : sizes[c]], f"m{c}": cones[c][:, sizes[c] :]})
-    matrix = sp.csc_array(sp.block_array(rows))
-    matrix.eliminate_zeros()
-    matrix.sort_indices()
-    parts = [form.cone_program.cost for form in forms]
-    cost = [own[:size] for own, size in zip(parts, sizes, strict=True)]
-    cost += [np.zeros(n * k), most[limited]] + [own[size:] for own, size in zip(parts, sizes, strict=True)]
-    lines = sum(form.cone_program.n_half_lines for form in forms)
-    rhs = np.zeros(matrix.shape[0])
-    rhs[lines + 2 * n * k : lines + 2 * n * k + k] = costs
+    local = [part.matrix.shape[1] - size for part, size in zip(parts, sizes, strict=True)]
+    own = [sp.csr_array(part.matrix)[1:] for part in parts]  # the first row is the power of the live load
+    ends = [part.n_half_lines for part in parts]
+    widths = {f"u{c}": sizes[c] for c in every} | {f"e{c}": k for c in every}
+    widths |= {"t": len(limited)} | {f"m{c}": local[c] for c in every}
+    lines: list[Row] = [{f"u{c}": own[c][: ends[c], : sizes[c]], f"m{c}": own[c][: ends[c], sizes[c] :]} for c in every]
+    lines += [{f"u{c}": -sp.csr_array(case.pulls.T), f"e{c}": -one} for c, case in enumerate(cases)]
+    lines += [{f"e{c}": -one} for c in every]
+    lines += [{f"e{c}": one for c in every} | {"t": -one[:, limited]}]
+    lines += [{"t": -sp.eye_array(len(limited), format="csr")}] if len(limited) else []
+    cones: list[Row] = [{f"u{c}": own[c][ends[c] :, : sizes[c]], f"m{c}": own[c][ends[c] :, sizes[c] :]} for c in every]
+    matrix = _stacked([*lines, *cones], widths)
+    cost = [part.cost[:size] for part, size in zip(parts, sizes, strict=True)]
+    cost += [np.zeros(n * k), most[limited], *(part.cost[size:] for part, size in zip(parts, sizes, strict=True))]
+    rhs, first = np.zeros(matrix.shape[0]), sum(ends) + 2 * n * k
+    rhs[first : first + k] = costs
     program = ConeProgram(
         cost=np.concatenate(cost),
         matrix=matrix,
         rhs=rhs,
-        n_half_lines=n_lines,
-        n_cones=sum(form.cone_program.n_cones for form in forms),
+        n_half_lines=sum(_height(row) for row in lines),
+        n_cones=sum(part.n_cones for part in parts),
         n_equations=0,
         n_local=sum(local),
     )
     return StrengtheningForm(tuple(cases), forms, costs, program)
+
+
+Row = dict[str, sp.csr_array]
+"""Blocks of a row of the matrix by the unknowns that they belong to."""
+
+
+def _height(row: Row) -> int:
+    return int(next(iter(row.values())).shape[0])
+
+
+def _stacked(rows: Sequence[Row], widths: dict[str, int]) -> sp.csc_array:
+    """The matrix, with zeros where a row has no block; ``widths`` of the unknowns in their order."""
+    blocks = [[row.get(name, sp.csr_array((_height(row), width))) for name, width in widths.items()] for row in rows]
+    matrix = sp.csc_array(sp.block_array(blocks))
+    matrix.eliminate_zeros()
+    matrix.sort_indices()
+    return matrix

@@ -83,6 +83,18 @@ def live_marks(scene: PictureScene, case: LoadCase, label: str, colour: str, pla
     return marks_of_load(scene, text, colour, case.live_load, case.live, case.travel, place)
 
 
+def _arrow_above(
+    scene: PictureScene, text: str, colour: str, acceleration: FloatArray, accelerated: BoolArray, place: int
+) -> Mark:
+    """One arrow for an acceleration, (3,), above the blocks, (n_blocks,), that have it."""
+    blocks, size = scene.model.blocks, scene.size
+    step = LONGEST * size * acceleration / np.linalg.norm(acceleration)
+    top = float(max(scene.moved[:, 2].max(), blocks.vertices[:, 2].max())) + (0.05 + 0.04 * place) * size
+    middle = np.append(blocks.centroids[accelerated, :2].mean(axis=0), top)
+    tip = middle + step * [0.5, 0.5, 0.0 if step[2] < 0 else 1.0]
+    return arrows(text, colour, tip[None], step[None], np.full((1, 2), -1), [text])
+
+
 def text_of(name: str, words: tuple[str, ...]) -> str:
     """Loads one after the other, the same words once with how often they apply."""
     counted = [word if count == 1 else f"{count} times {word}" for word, count in Counter(words).items()]
@@ -110,11 +122,7 @@ def marks_of_load(
         acceleration, accelerated = common_acceleration(model, rest)
     if accelerated.any():
         rest = rest - _mass_loads(model, acceleration, accelerated)
-        step = LONGEST * size * acceleration / np.linalg.norm(acceleration)
-        top = float(max(scene.moved[:, 2].max(), blocks.vertices[:, 2].max())) + (0.05 + 0.04 * place) * size
-        middle = np.append(blocks.centroids[accelerated, :2].mean(axis=0), top)
-        tip = middle + step * [0.5, 0.5, 0.0 if step[2] < 0 else 1.0]
-        found.append(arrows(text, colour, tip[None], step[None], np.full((1, 2), -1), [text]))
+        found.append(_arrow_above(scene, text, colour, acceleration, accelerated, place))
     least = NOTHING * np.linalg.norm(loads[:, :3], axis=1).max(initial=0.0)
     under = np.flatnonzero(np.linalg.norm(rest[:, :3], axis=1) > least)
     points, left = lines_of_action(blocks.centroids[under], rest[under])
