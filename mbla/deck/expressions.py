@@ -204,7 +204,7 @@ def evaluate(node: ast.expr, value_of: Callable[[str], float], depth: int) -> fl
         case _:
             raise _wrong(
                 "holds something other than numbers, parameters, + - * / % **, parentheses and functions "
-                f"({', '.join(FUNCTIONS)})",
+                f"({', '.join(FUNCTIONS)})"
             )
 
 

@@ -122,7 +122,7 @@ USUAL: dict[str, dict[str, Usual]] = {
             "unit_weight",
             ("kN/m^3", "N/m^3"),
             "10 kN/m^3",
-        ),
+        )
     },
     "height": {"period": Usual(0.0, LONGEST_PERIOD, "is in seconds, and no building's first period is so long")},
     "spectrum": {"a_g": Usual(0.0, MOST_GROUND, OF_GROUND)},

@@ -28,6 +28,7 @@ from mbla.model.solids.plane import cut, unit
 from mbla.model.solids.polygons import Polygons, polygons_from_loops, triangles
 from mbla.model.solids.ragged import items_of_rows, row_maxima
 from mbla.model.wording import counted, named
+from mbla.process.late import shapely
 
 ROUNDING = 1e-12
 """volume over that of all columns on the block below which a column is none"""
@@ -220,8 +221,6 @@ def _free_triangles(faces: IntArray, body: FillBody, blocks: Blocks, tolerance: 
 
     A face above covers what lies under it, from contact, within the tolerance, up to the top surface.
     """
-    import shapely
-
     if not len(faces):
         return np.empty((0, 3, 3)), np.empty(0, np.int64)
     plans = _plans(faces, blocks)

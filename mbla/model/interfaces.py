@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from itertools import combinations
 
 import numpy as np
+import shapely
 
 from mbla.arrays import FloatArray, IntArray, starts
 from mbla.deck.deck import Deck
@@ -166,8 +167,6 @@ def _oriented(points: FloatArray, pair: tuple[int, int], bodies: _Bodies) -> tup
 
 def _lies_on(points: FloatArray, normal: FloatArray, body: int, bodies: _Bodies, reach: float) -> bool:
     """Whether all corners lie on a ground, or within one facet of a block, that faces along the normal."""
-    import shapely
-
     blocks = bodies.blocks
     if body >= len(blocks):
         ground = bodies.grounds[body - len(blocks)]
@@ -194,8 +193,6 @@ def _overlapping(
 
     outlines : (n, 3) corners of each, counter-clockwise about its normal
     """
-    import shapely
-
     of_pair: dict[tuple[int, int], list[int]] = {}
     for number, pair in enumerate(pairs):
         of_pair.setdefault(pair, []).append(number)

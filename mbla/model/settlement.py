@@ -38,11 +38,7 @@ from mbla.questions.reaction import Settlement
 
 
 def build_settlement(
-    section: LoadCaseSection,
-    path: KeyPath,
-    load_case: LoadCase,
-    supports: Supports,
-    selection: BlockSelection,
+    section: LoadCaseSection, path: KeyPath, load_case: LoadCase, supports: Supports, selection: BlockSelection
 ) -> LoadCase:
     """The load case with its settlement; the reference reaction is not known before there are contacts.
 
@@ -146,11 +142,7 @@ def with_reference(load_case: LoadCase, reference: float) -> LoadCase:
     dead[settlement.blocks] = 0.0 if np.isnan(reference) else -reference * per_unit
     pull = AppliedLoad(settlement.blocks, without_levers(live[settlement.blocks]), settlement.words)
     return replace(
-        load_case,
-        dead_load=dead,
-        live_load=live,
-        live=(pull,),
-        settlement=replace(settlement, reference=reference),
+        load_case, dead_load=dead, live_load=live, live=(pull,), settlement=replace(settlement, reference=reference)
     )
 
 

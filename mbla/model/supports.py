@@ -25,14 +25,7 @@ from mbla.model.solids.blocks import Blocks
 from mbla.model.solids.plane import unit
 from mbla.model.solids.ragged import row_maxima
 from mbla.model.solids.surface import Surface
-from mbla.model.surfaces import (
-    FACING,
-    Carried,
-    allowed_blocks,
-    grounds_of_surfaces,
-    surface_of_polygon,
-    touching_only,
-)
+from mbla.model.surfaces import FACING, Carried, allowed_blocks, grounds_of_surfaces, surface_of_polygon, touching_only
 from mbla.model.wording import named, vector
 
 
@@ -201,11 +194,7 @@ def _surfaces_of(section: SurfaceSection, path: KeyPath, deck: Deck, selection: 
         return ()
     assert section.file is not None  # a rule of the deck: one of polygon and file
     item = GeometryFile.model_construct(
-        file=section.file,
-        units=section.units,
-        scale=section.scale or 1.0,
-        up=section.up,
-        members=section.members,
+        file=section.file, units=section.units, scale=section.scale or 1.0, up=section.up, members=section.members
     )
     try:
         geometry = read_members(deck.resolve_file((*path, "file"), section.file), item)

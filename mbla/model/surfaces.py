@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+import shapely
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.deck.sections.contacts import ContactsSection
@@ -33,8 +34,6 @@ def surface_of_polygon(points: Sequence[Sequence[float]], path: KeyPath, toleran
 
     tolerance : distance from their plane over the root of the area
     """
-    import shapely
-
     corners = np.array(points, dtype=np.float64)
     middle, normal, breadth = fitted_plane(corners)
     if breadth <= THIN:
@@ -83,8 +82,6 @@ class Carried:
 
     def _share_area(self, surface: Surface, faces: IntArray) -> BoolArray:
         """Whether faces (n,) cover part of the surface as seen along its normal, (n,), by more than a strip."""
-        import shapely
-
         blocks, middle = self.blocks, surface.outline.mean(axis=0)
         axes = plane_axes(surface.normal[None])[0]
         outline = shapely.Polygon((surface.outline - middle) @ axes.T)
@@ -147,8 +144,6 @@ def touching_only(point: FloatArray, normal: FloatArray, carried: Carried, surfa
 
 def lies_on(points: FloatArray, ground: Ground, reach: FloatArray | float) -> BoolArray:
     """Which points (n, 3) lie on a ground, within a distance, (n,) m."""
-    import shapely
-
     reaches = np.broadcast_to(reach, len(points))
     found = np.asarray(np.abs((points - ground.point) @ ground.normal) <= reaches)
     rows = np.flatnonzero(found)

@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
+import shapely
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.deck.deck import Deck
@@ -209,8 +210,6 @@ def _grounds(grounds: Sequence[Ground], mirror: Mirror) -> tuple[Ground, ...]:
 
 def _own_image(ground: Ground, mirror: Mirror) -> bool:
     """Whether a surface that ends lies across the mirror, alike on both sides."""
-    import shapely
-
     assert ground.outline is not None  # who calls knows
     if abs(float(ground.normal @ mirror.normal)) > ACROSS:
         return False

@@ -21,9 +21,7 @@ class ForceSection(Section):
     model_config = ConfigDict(json_schema_extra={"anyOf": [{"required": ["from"]}, {"required": ["on"]}]})
 
     from_: Selector | None = Field(
-        None,
-        alias="from",
-        description="blocks that exert the force, free or fixed; default: ground and fixed blocks",
+        None, alias="from", description="blocks that exert the force, free or fixed; default: ground and fixed blocks"
     )
     on: Selector | None = Field(None, description="blocks on which the force acts; default: all other blocks")
     direction: Direction = Field(description="along which it is measured; a force the other way is negative")

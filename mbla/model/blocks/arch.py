@@ -230,12 +230,6 @@ def amount(item: ArchItem) -> tuple[float, str]:
 
 register_item(
     ItemKind(
-        "arch",
-        ArchItem,
-        generate,
-        amount,
-        after="walls",
-        positions=(VOUSSOIR, RING, UNIT, COURSE),
-        groups=(SPRINGERS,),
+        "arch", ArchItem, generate, amount, after="walls", positions=(VOUSSOIR, RING, UNIT, COURSE), groups=(SPRINGERS,)
     )
 )

@@ -100,12 +100,6 @@ def amount(item: BarrelVaultItem) -> tuple[float, str]:
 
 register_item(
     ItemKind(
-        "barrel_vault",
-        BarrelVaultItem,
-        generate,
-        amount,
-        after="dome",
-        positions=(COURSE, UNIT),
-        groups=(SPRINGERS,),
+        "barrel_vault", BarrelVaultItem, generate, amount, after="dome", positions=(COURSE, UNIT), groups=(SPRINGERS,)
     )
 )

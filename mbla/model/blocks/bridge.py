@@ -201,11 +201,6 @@ def amount(item: BridgeItem) -> tuple[float, str]:
 
 register_item(
     ItemKind(
-        "bridge",
-        BridgeItem,
-        generate,
-        amount,
-        after="trilithon",
-        positions=(SPAN, VOUSSOIR, RING, COURSE, UNIT, LEAF),
+        "bridge", BridgeItem, generate, amount, after="trilithon", positions=(SPAN, VOUSSOIR, RING, COURSE, UNIT, LEAF)
     )
 )

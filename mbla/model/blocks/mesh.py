@@ -29,8 +29,7 @@ class MeshItem(Item, GeometryFile):
     """
 
     leave_out: Names | None = Field(
-        None,
-        description="objects, groups, layers or sets of the file to leave out, by name; with members: of these",
+        None, description="objects, groups, layers or sets of the file to leave out, by name; with members: of these"
     )
     supports: Names | None = Field(
         None,
@@ -49,8 +48,7 @@ class MeshItem(Item, GeometryFile):
         "geometric entity of Gmsh) are one block, instead of one each",
     )
     extrude: PositiveLength | None = Field(
-        None,
-        description="thickness of a drawing's outlines, along +y from y = 0; the drawing's x, y become x, z",
+        None, description="thickness of a drawing's outlines, along +y from y = 0; the drawing's x, y become x, z"
     )
     weld: PositiveLength | None = Field(
         None,

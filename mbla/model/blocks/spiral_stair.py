@@ -124,12 +124,7 @@ def _corners(item: SpiralStairItem, number: IntArray, angles: FloatArray, radius
 
 
 def _sectors(
-    item: SpiralStairItem,
-    number: IntArray,
-    angles: FloatArray,
-    radii: tuple[float, float],
-    low: float,
-    high: float,
+    item: SpiralStairItem, number: IntArray, angles: FloatArray, radii: tuple[float, float], low: float, high: float
 ) -> FloatArray:
     """Chains of upright rectangles (n, n_angles, 4, 3), of the sectors between two radii and two heights over k h."""
     ends = ((radii[0], low), (radii[0], high), (radii[1], high), (radii[1], low))

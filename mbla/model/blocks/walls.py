@@ -107,9 +107,7 @@ def plan_lines(item: WallsItem) -> Iterator[tuple[tuple[str | int, ...], Sequenc
         yield ("cross_walls", number, "to"), cross.from_, cross.to
 
 
-def _check_lines(
-    lines: Sequence[tuple[tuple[str | int, ...], Sequence[float], Sequence[float]]],
-) -> Iterator[Finding]:
+def _check_lines(lines: Sequence[tuple[tuple[str | int, ...], Sequence[float], Sequence[float]]]) -> Iterator[Finding]:
     """Each line has a length, and runs along x or along y."""
     for path, start, end in lines:
         short, long = sorted(abs(b - a) for a, b in zip(start, end, strict=True))

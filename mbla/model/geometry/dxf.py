@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import shapely
 
 from mbla.arrays import FloatArray, IntArray
 from mbla.errors import Notice
@@ -201,8 +202,6 @@ def enclosed_fields(lines: list[FloatArray]) -> tuple[list[FloatArray], int]:
     MemoryError
         where the network does not fit in what may be written
     """
-    import shapely
-
     points = _ends_joined(np.concatenate(lines), np.cumsum([len(line) for line in lines])[:-1])
     _refuse_tangle(points)
     try:
@@ -220,8 +219,6 @@ def enclosed_fields(lines: list[FloatArray]) -> tuple[list[FloatArray], int]:
 
 def _refuse_tangle(lines: list[FloatArray]) -> None:
     """Refuse lines that meet more than ``MOST_MEETINGS`` times: few lines can enclose millions of fields."""
-    import shapely
-
     segments = shapely.linestrings(np.concatenate([np.stack([line[:-1], line[1:]], axis=1) for line in lines]))
     tree = shapely.STRtree(segments)
     meetings = 0

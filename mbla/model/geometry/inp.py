@@ -16,13 +16,7 @@ from pathlib import Path
 import numpy as np
 
 from mbla.model.geometry.cells import VOLUME_CELLS
-from mbla.model.geometry.geometry import (
-    Geometry,
-    GeometryFileError,
-    cells_left_out,
-    malformed,
-    unused_points,
-)
+from mbla.model.geometry.geometry import Geometry, GeometryFileError, cells_left_out, malformed, unused_points
 from mbla.model.geometry.welding import surfaces_by_label
 from mbla.model.solids.polyhedra import polyhedra_from_lists
 

@@ -14,13 +14,7 @@ from pathlib import Path
 import numpy as np
 
 from mbla.errors import Notice
-from mbla.model.geometry.geometry import (
-    Geometry,
-    GeometryFileError,
-    empty_objects,
-    malformed,
-    unused_points,
-)
+from mbla.model.geometry.geometry import Geometry, GeometryFileError, empty_objects, malformed, unused_points
 from mbla.model.geometry.welding import surfaces_by_label
 from mbla.model.wording import counted, with_count
 

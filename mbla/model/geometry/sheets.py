@@ -7,6 +7,7 @@ it into triangles. A terrain is a sheet of many flat parts.
 from __future__ import annotations
 
 import numpy as np
+import shapely
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.errors import Refusal
@@ -97,8 +98,6 @@ def flat_outlines(sheet: Polyhedra, tolerance: float) -> list[FloatArray]:
 
 def _united(sheet: Polyhedra, chosen: BoolArray) -> list[FloatArray]:
     """Outline of faces in one plane; each by itself where together they have a hole."""
-    import shapely
-
     rows = np.flatnonzero(chosen)
     loops = [sheet.vertices[_loop(sheet, face)] for face in rows.tolist()]
     if len(loops) > 1:

@@ -19,6 +19,7 @@ from mbla.model.solids.blocks import Blocks
 from mbla.model.solids.plane import plane_axes, unit
 from mbla.model.solids.polygons import Polygons, polygons_from_loops
 from mbla.model.solids.ragged import items_of_rows
+from mbla.process.late import shapely
 
 GRAZING = 1e-9
 """cosine between a face's normal and the direction, below which the direction runs along the face"""
@@ -67,14 +68,10 @@ class Below:
     @cached_property
     def tree(self) -> Any:
         """To search these outlines."""
-        import shapely
-
         return shapely.STRtree(self.outlines)
 
     def under(self, points: FloatArray) -> IntArray:
         """The block under each point (n, 3), -1 where there is none."""
-        import shapely
-
         places, near_by = shapely.points(self.flat(points)), {"predicate": "dwithin", "distance": self.hair / 2}
         row, hit = self.tree.query(places, **near_by)
         face = self.faces[hit]
@@ -100,8 +97,6 @@ class Below:
         """Parts of a line between two points, (3,): ends from 0 to 1 along it, (n + 1,), and what lies under them just
         left and just right of it, (2, n), which differs where the line runs along a joint, or along an edge.
         """
-        import shapely
-
         aside = unit(np.cross(end - begin, self.down)) * self.hair
         sides = [np.stack([begin, end]) + sign * aside for sign in (-1.0, 1.0)]
         ends = [np.array([0.0, 1.0])]

@@ -33,6 +33,7 @@ from mbla.model.solids.blocks import Blocks
 from mbla.model.solids.plane import cut, signed_areas
 from mbla.model.solids.polygons import Polygons, polygons_from_loops, triangles
 from mbla.model.solids.ragged import row_maxima
+from mbla.process.late import shapely
 
 HAIR = 1e-9
 """depth over the extent of the fill to which a load that stands on a block itself is lifted, so that it has a side"""
@@ -176,8 +177,6 @@ def _visible(pieces: _Pieces, line: bool, size: float) -> tuple[IntArray, Polygo
     """Pieces that the load sees, (m,), and their images less what lies behind other pieces, (m,); ``size`` is an area
     of images, to which others are relative.
     """
-    import shapely
-
     flat = _with_chords(pieces.loops) if line else _flat(pieces.loops, line)
     rows = np.flatnonzero(signed_areas(flat) > NOTHING * size)
     images = polygons_from_loops(flat[rows].reshape(-1, 2), np.arange(len(rows) + 1) * flat.shape[1])
@@ -215,8 +214,6 @@ def _flat(points: FloatArray, line: bool) -> FloatArray:
 
 def _bounds(images: Polygons) -> tuple[float, float]:
     """Least and greatest slope along of images (n,); the wrong way round without any."""
-    import shapely
-
     if not len(images):
         return math.inf, -math.inf
     least, _, greatest, _ = shapely.total_bounds(images)

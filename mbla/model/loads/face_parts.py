@@ -17,6 +17,7 @@ from mbla.model.solids.blocks import Blocks
 from mbla.model.solids.plane import meeting_boxes, plane_axes
 from mbla.model.solids.polygons import Polygons, polygons_from_loops, triangles
 from mbla.model.solids.ragged import row_maxima
+from mbla.process.late import shapely
 
 FACING = 0.99
 """cosine of the greatest angle between two faces that lie against each other"""
@@ -52,8 +53,6 @@ class _Frames:
 
     def outline(self, row: int, corners: FloatArray) -> Any:
         """A surface, corners (n, 3), as a polygon in the plane of a frame."""
-        import shapely
-
         return shapely.Polygon((corners - self.origins[row]) @ self.axes[row].T)
 
     def triangles(self, polygons: Polygons) -> tuple[FloatArray, IntArray]:
@@ -74,8 +73,6 @@ def face_parts(
 
     tolerance, overlap : of gaps and of overlaps, relative to block size, as those of contacts
     """
-    import shapely
-
     frames = _Frames(blocks.vertices[blocks.loops[blocks.loop_start[faces]]], plane_axes(blocks.face_normals[faces]))
     polygons = frames.polygons(np.arange(len(faces)), faces, blocks)
     areas = left = np.asarray(shapely.area(polygons))

@@ -45,8 +45,7 @@ class PressureLoad(Section):
     """
 
     value: Stress = Field(
-        0.0,
-        description="pressure normal to the face, at the level if there is one; positive pushes against the face",
+        0.0, description="pressure normal to the face, at the level if there is one; positive pushes against the face"
     )
     level: Length | None = Field(None, description="height z above which there is no pressure")
     per_depth: UnitWeight | None = Field(None, description="increase of the pressure with the depth below the level")

@@ -122,8 +122,7 @@ def labels_of(
 def join_labels(parts: Sequence[BlockLabels]) -> BlockLabels:
     """Labels of the blocks of several parts, in order."""
     return BlockLabels(
-        tuple(member for part in parts for member in part.members),
-        np.concatenate([part.positions for part in parts]),
+        tuple(member for part in parts for member in part.members), np.concatenate([part.positions for part in parts])
     )
 
 

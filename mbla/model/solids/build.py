@@ -32,12 +32,7 @@ from mbla.model.solids.measures import (
     find_edges,
     volumes_and_centroids,
 )
-from mbla.model.solids.polyhedra import (
-    Polyhedra,
-    drop_unused_vertices,
-    take_polyhedra,
-    turn_faces,
-)
+from mbla.model.solids.polyhedra import Polyhedra, drop_unused_vertices, take_polyhedra, turn_faces
 from mbla.model.solids.self_intersection import intersection_defects
 from mbla.model.solids.shared_faces import shared_faces
 from mbla.model.wording import counted, named, with_count

@@ -9,6 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+import shapely
 
 from mbla.arrays import BoolArray, FloatArray, IntArray, row_of_item, summed
 from mbla.model.solids.blocks import Blocks
@@ -87,8 +88,6 @@ class _Shared:
     """What pairs of faces (n,) share as seen along normals (n, 3): its corners in space, and the pair of each."""
 
     def __init__(self, blocks: Blocks, one: IntArray, other: IntArray, normals: FloatArray) -> None:
-        import shapely
-
         self.normals = normals
         axes = plane_axes(normals)
         origins = blocks.vertices[blocks.loops[blocks.loop_start[one]]]

@@ -15,6 +15,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
 from mbla.model.solids.ragged import chunks
+from mbla.process.late import shapely
 
 
 def unit(direction: Sequence[float] | FloatArray) -> FloatArray:
@@ -83,8 +84,6 @@ def meeting_boxes(
 
     Raises CrowdedError where there are more.
     """
-    import shapely
-
     found, number = [np.empty((2, 0), dtype=np.int64)], 0
     if len(lower) and len(others_lower):
         extent = others_upper.max(axis=0) - others_lower.min(axis=0)

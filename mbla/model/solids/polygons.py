@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from mbla.arrays import BoolArray, FloatArray, IntArray, starts
 from mbla.model.solids.convex import clip_convex, convex_loops, signed_areas
+from mbla.process.late import shapely
 
 Polygons: TypeAlias = NDArray[np.object_]
 
@@ -27,8 +28,6 @@ def polygons_from_loops(points: FloatArray, loop_start: IntArray) -> Polygons:
     points     : (n_corners, 2)
     loop_start : (n_loops + 1,)
     """
-    import shapely
-
     polygons = polygons_from_rings(points, loop_start, np.arange(len(loop_start) - 1))
     suspects = np.flatnonzero(~convex_loops(points, loop_start))
     suspects = suspects[~shapely.is_valid(polygons[suspects])]
@@ -39,8 +38,6 @@ def polygons_from_loops(points: FloatArray, loop_start: IntArray) -> Polygons:
 
 def convex_polygons(polygons: Polygons) -> BoolArray:
     """True for polygons in one part, without holes, that are convex, (n,)."""
-    import shapely
-
     single = (shapely.get_type_id(polygons) == _POLYGON) & (shapely.get_num_interior_rings(polygons) == 0)
     single &= ~shapely.is_empty(polygons)
     convex: BoolArray = single.copy()
@@ -56,8 +53,6 @@ def polygons_from_rings(points: FloatArray, ring_start: IntArray, polygon_of_rin
     ring_start      : (n_rings + 1,)
     polygon_of_ring : (n_rings,) ascending, every polygon from 0 has at least one ring
     """
-    import shapely
-
     rings = shapely.linearrings(points, indices=np.repeat(np.arange(len(ring_start) - 1), np.diff(ring_start)))
     return np.atleast_1d(shapely.polygons(rings, indices=polygon_of_ring))
 
@@ -68,8 +63,6 @@ def convex_hulls(points: FloatArray, loop_start: IntArray) -> tuple[FloatArray, 
     points     : (n_points, 2)
     loop_start : (n_loops + 1,) no loop has its points all on a line
     """
-    import shapely
-
     row = np.repeat(np.arange(len(loop_start) - 1), np.diff(loop_start))
     hulls = shapely.convex_hull(np.atleast_1d(shapely.multipoints(points, indices=row)))
     corners_of_hulls, start, _ = rings(hulls)
@@ -83,8 +76,6 @@ def union_by_row(polygons: Polygons, row: IntArray, n_rows: int, grid: float | N
     row      : (n,) ascending; every row from 0 to n_rows - 1 occurs
     grid     : coordinates are snapped to multiples of it, so that edges that differ by rounding merge
     """
-    import shapely
-
     start = starts(np.bincount(row, minlength=n_rows).astype(np.int64))
     counts = np.diff(start)
     result: Polygons = polygons[start[:-1]].copy()
@@ -108,8 +99,6 @@ def map_polygons(polygons: Polygons, matrices: FloatArray, offsets: FloatArray) 
     matrices : (n, 2, 2)
     offsets  : (n, 2)
     """
-    import shapely
-
     points, row = shapely.get_coordinates(polygons, return_index=True)
     m = matrices[row]
     mapped = np.stack(
@@ -128,8 +117,6 @@ def intersect(first: Polygons, second: Polygons, convex: BoolArray) -> Polygons:
 
     convex : (n,) both polygons are convex and without holes
     """
-    import shapely
-
     common: Polygons = np.full(len(first), shapely.Polygon(), dtype=object)
     rows = np.flatnonzero(convex)
     if len(rows):
@@ -142,8 +129,6 @@ def intersect(first: Polygons, second: Polygons, convex: BoolArray) -> Polygons:
 
 
 def _intersect_convex(first: Polygons, second: Polygons) -> Polygons:
-    import shapely
-
     points, start = clip_convex(*_open_loops(first), *_open_loops(second))
     counts = np.diff(start)
     solid = counts >= 3
@@ -156,8 +141,6 @@ def _intersect_convex(first: Polygons, second: Polygons) -> Polygons:
 
 def _open_loops(polygons: Polygons) -> tuple[FloatArray, IntArray]:
     """Corners of polygons without holes, the closing one left out, and their starts."""
-    import shapely
-
     points, row = shapely.get_coordinates(polygons, return_index=True)
     closing = np.append(row[1:] != row[:-1], True)
     return points[~closing], starts(np.bincount(row[~closing], minlength=len(polygons)).astype(np.int64))
@@ -165,8 +148,6 @@ def _open_loops(polygons: Polygons) -> tuple[FloatArray, IntArray]:
 
 def boxes_overlap(first: Polygons, second: Polygons, margin: float) -> BoolArray:
     """True where the bounding rectangles of a pair share more than ``margin`` along both axes, (n,)."""
-    import shapely
-
     a, b = shapely.bounds(first), shapely.bounds(second)
     shared = np.minimum(a[:, 2:], b[:, 2:]) - np.maximum(a[:, :2], b[:, :2])
     wide: BoolArray = (shared > margin).all(axis=1)
@@ -175,8 +156,6 @@ def boxes_overlap(first: Polygons, second: Polygons, margin: float) -> BoolArray
 
 def connected_parts(shapes: Polygons) -> tuple[Polygons, IntArray]:
     """The polygons that shapes consist of, points and lines left out, and the row of the shape each comes from."""
-    import shapely
-
     parts, row = shapely.get_parts(shapes, return_index=True)
     if (shapely.get_type_id(parts) >= _MULTIPOLYGON).any():
         parts, inner = shapely.get_parts(parts, return_index=True)
@@ -190,8 +169,6 @@ def widths(polygons: Polygons) -> FloatArray:
 
     Shapes rounder than a square have no such rectangle; they get 4 A / P.
     """
-    import shapely
-
     area = shapely.area(polygons)
     half = shapely.length(polygons) / 2
     root = np.sqrt(np.maximum(half**2 - 4 * area, 0.0))
@@ -208,8 +185,6 @@ def rings(polygons: Polygons) -> tuple[FloatArray, IntArray, IntArray]:
     ring_start      : (n_rings + 1,)
     polygon_of_ring : (n_rings,)     the outer ring of each polygon comes first
     """
-    import shapely
-
     loops, polygon = shapely.get_rings(polygons, return_index=True)
     points, ring = shapely.get_coordinates(loops, return_index=True)
     closing = np.ones(len(ring), dtype=bool)
@@ -232,8 +207,6 @@ def triangles(polygons: Polygons) -> tuple[FloatArray, IntArray]:
     points : (n_triangles, 3, 2) counter-clockwise
     row    : (n_triangles,)  polygon that each triangle belongs to
     """
-    import shapely
-
     parts, row = shapely.get_parts(shapely.constrained_delaunay_triangles(polygons), return_index=True)
     points = shapely.get_coordinates(parts).reshape(len(parts), 4, 2)[:, :3]
     (a, b), (c, d) = (points[:, 1] - points[:, 0]).T, (points[:, 2] - points[:, 0]).T
@@ -242,8 +215,6 @@ def triangles(polygons: Polygons) -> tuple[FloatArray, IntArray]:
 
 def _polygonal(shapes: Polygons) -> Polygons:
     """Shapes with their points and lines left out, as one (multi)polygon each."""
-    import shapely
-
     parts, row = connected_parts(shapes)
     result: Polygons = np.full(len(shapes), shapely.Polygon(), dtype=object)
     if len(parts):

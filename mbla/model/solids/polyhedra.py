@@ -85,8 +85,7 @@ class Polyhedra:
 
 
 def polyhedra_from_lists(
-    vertex_lists: Sequence[Sequence[Sequence[float]] | FloatArray],
-    face_lists: Sequence[Sequence[Sequence[int]]],
+    vertex_lists: Sequence[Sequence[Sequence[float]] | FloatArray], face_lists: Sequence[Sequence[Sequence[int]]]
 ) -> Polyhedra:
     """Polyhedra from a list of points, (n, 3) m, and a list of faces (corners as indices from 0) for each."""
     vertex_counts = np.array([len(vertices) for vertices in vertex_lists], dtype=np.int64)

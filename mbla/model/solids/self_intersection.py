@@ -10,6 +10,7 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+import shapely
 
 from mbla.arrays import BoolArray, FloatArray, IntArray, starts
 from mbla.errors import Message
@@ -67,8 +68,6 @@ def _edge_meets_face(
     polyhedra: Polyhedra, edges: Edges, faces: FaceGeometry, extents: Extents, edge: IntArray, face: IntArray
 ) -> BoolArray:
     """True where an edge passes through or touches a face away from the vertices they share, (n_pairs,)."""
-    import shapely
-
     ends = edges.ends[edge]
     eps = np.maximum(TOUCH * extents.diagonals, 4 * extents.rounding)[edges.block[edge]]
     points = polyhedra.local_vertices[ends]
@@ -107,8 +106,6 @@ def _corner_of_face(polyhedra: Polyhedra, ends: IntArray, face: IntArray) -> Boo
 
 def _in_planes(polyhedra: Polyhedra, faces: FaceGeometry, face: IntArray, points: FloatArray) -> tuple[Any, FloatArray]:
     """Outlines of faces, (n,), and points for each, (n, k, 3), in coordinates of their planes, (n, k, 2)."""
-    import shapely
-
     axes, counts = plane_axes(faces.normals[face]), np.diff(polyhedra.loop_start)[face]
     ring = np.repeat(np.arange(len(face)), counts)
     corners = polyhedra.local_vertices[polyhedra.loops[items_of_rows(polyhedra.loop_start, face)]]

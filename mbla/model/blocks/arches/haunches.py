@@ -47,11 +47,7 @@ ON_BASE = 1e-9
 
 
 def haunches(
-    backing: Backing,
-    section: ArchSection,
-    piers: float | None,
-    across: Callable[[int], FloatArray],
-    shear: float = 0.0,
+    backing: Backing, section: ArchSection, piers: float | None, across: Callable[[int], FloatArray], shear: float = 0.0
 ) -> tuple[Part, tuple[IntArray, IntArray], tuple[FloatArray, FloatArray]]:
     """Blocks of the haunches; which of them stand on the base left and right; and a point of either base, (3,).
 
