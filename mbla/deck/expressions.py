@@ -101,10 +101,8 @@ class Parameters:
     def evaluate(self, text: str) -> float:
         """Value of an ``"=..."`` string.
 
-        Raises
-        ------
-        ExpressionError
-            with what is wrong; ParameterFaultError where a parameter is, rather than this expression
+        Raises ExpressionError with what is wrong; ParameterFaultError where a parameter is, rather than this
+        expression.
         """
         expression = parse_source(text[1:])
         self.used.update(self._parameters_in(expression))

@@ -46,11 +46,8 @@ from mbla.model.wording import named, vector
 def build_model(deck: Deck) -> Model:
     """The model that a checked deck describes.
 
-    Raises
-    ------
-    DeckError
-        with every fault found: items that cannot be built, blocks that are no blocks, selectors without blocks,
-        supports and loads that do nothing
+    Raises DeckError with every fault found: items that cannot be built, blocks that are no blocks, selectors without
+    blocks, supports and loads that do nothing.
     """
     structure = structure_of(deck)
     selection, supports, interfaces = structure.selection, structure.supports, structure.interfaces

@@ -16,7 +16,6 @@ from mbla.deck.sections.materials import Material
 from mbla.deck.text.tree import KeyPath
 from mbla.deck.units import Units
 from mbla.errors import DeckError, Fault, Finding, Message, Notice
-from mbla.model.blocks import amounts
 from mbla.model.blocks.generated import Generated, ItemContext, ItemRefused, Part
 from mbla.model.geometry.sheets import sheets
 from mbla.model.model import Ground
@@ -25,7 +24,11 @@ from mbla.model.solids.build import Labels, indices_in_groups
 from mbla.model.solids.defects import Defect
 from mbla.model.solids.polyhedra import Polyhedra, join_polyhedra, take_polyhedra
 from mbla.model.solids.surface import Surface
-from mbla.model.transform import build_transform, repetitions, transform_item
+from mbla.model.transform import build_transform, copies_of, repetitions, transform_item
+
+MOST = 2_000_000
+"""units, or facets of round blocks, that all items together may make, some GB of memory: an error in the units of
+length asks for far more than is meant"""
 
 
 @dataclass(frozen=True)
@@ -72,8 +75,8 @@ def collect_items(deck: Deck, faults: list[Fault]) -> CollectedItems:
             generated = _generate(deck, block_item, path)
             copies = repetitions(item.repeat)
             made = n_blocks + len(copies) * sum(len(part.polyhedra) for part in generated.parts)
-            if made > amounts.MOST:
-                raise ItemRefused(Finding("too-many-units", f"makes {amounts.too_many(made)}"))
+            if made > MOST:
+                raise ItemRefused(Finding("too-many-units", f"makes {too_many(made)}"))
         except (ItemRefused, DeckError) as refused:
             findings = refused.findings if isinstance(refused, ItemRefused) else ()
             faults += [deck.fault_at((*path, *below), message) for below, message in findings]
@@ -147,18 +150,21 @@ def _refuse_amounts(deck: Deck) -> None:
     faults, together = [], 0.0
     for number, block_item in enumerate(deck.content.blocks):
         units, key = block_item.facts.amount(block_item.item)
-        units *= min(amounts.copies_of(block_item.item.repeat), 10 * amounts.MOST)
-        if units > amounts.MOST:
+        units *= min(copies_of(block_item.item.repeat), 10 * MOST)
+        if units > MOST:
             path: KeyPath = ("blocks", number, block_item.kind, *((key,) if key else ()))
-            faults.append(deck.fault_at(path, Message("too-many-units", f"makes {amounts.too_many(units)}")))
+            faults.append(deck.fault_at(path, Message("too-many-units", f"makes {too_many(units)}")))
         else:
             together += units
-    if together > amounts.MOST:
-        faults.append(
-            deck.fault_at(("blocks",), Message("too-many-units", f"the items make {amounts.too_many(together)}"))
-        )
+    if together > MOST:
+        faults.append(deck.fault_at(("blocks",), Message("too-many-units", f"the items make {too_many(together)}")))
     if faults:
         raise DeckError(faults)
+
+
+def too_many(units: float) -> str:
+    """Message on an item, or all of them, that makes more than can be handled."""
+    return f"about {min(units, 1e300):.0e} units; at most {MOST:,} can be handled"
 
 
 def _named(ground: Ground, labels: Labels) -> Ground:

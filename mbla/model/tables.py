@@ -97,10 +97,8 @@ def read_table(path: Path, required: Sequence[str], optional: Sequence[str] = ()
     with_rest : rows go on after the required columns, which then come first and in order, with a number of columns of
                 their own
 
-    Raises
-    ------
-    TableRefused
-        for files that cannot be read, headers that lack or misspell a column, and rows that do not fit the header
+    Raises TableRefused for files that cannot be read, headers that lack or misspell a column, and rows that do not fit
+    the header.
     """
     name = path.name
     try:

@@ -9,6 +9,7 @@ mirroring in a plane of unit normal n by Householder, H = I - 2 n n'.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import reduce
@@ -63,6 +64,11 @@ def repetitions(repeat: Sequence[Repetition] | Repetition) -> list[AffineMap]:
     for step in [repeat] if isinstance(repeat, Repetition) else repeat:
         copies = [_onwards(step, number).after(copy) for number in range(step.count) for copy in copies]
     return copies
+
+
+def copies_of(repeat: Sequence[Repetition] | Repetition) -> int:
+    """How often something is there that is repeated, itself included."""
+    return math.prod(step.count for step in ([repeat] if isinstance(repeat, Repetition) else repeat))
 
 
 def _onwards(step: Repetition, number: int) -> AffineMap:

@@ -13,8 +13,8 @@ import pytest
 
 from mbla.deck import read_deck
 from mbla.errors import DeckError
-from mbla.model import build_model
-from mbla.model.blocks import ITEM_KINDS, amounts
+from mbla.model import build_model, items
+from mbla.model.blocks import ITEM_KINDS
 from mbla.model.model import Model
 from tests.deck.decks import BLOCK, write
 from tests.model.shapes import write_deck
@@ -64,7 +64,7 @@ def test_items_are_counted_together_before_any_is_made(tmp_path: Path, monkeypat
 
 
 def test_what_fits_is_made(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(amounts, "MOST", 4)
+    monkeypatch.setattr(items, "MOST", 4)
     stack = (
         "  - stack: {group: GROUP, material: stone, block: [1, 1, 1], count: 2, transform: {translate: [X, 0, 0]}}\n"
     )

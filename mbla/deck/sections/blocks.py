@@ -5,8 +5,7 @@ from __future__ import annotations
 from mbla.deck.kinds import Choice, keys_of
 from mbla.deck.section import exactly_one_of
 from mbla.model.blocks import ITEM_KINDS as ITEM_KINDS
-from mbla.model.blocks.item import Item
-from mbla.model.blocks.item_kind import ItemKind
+from mbla.model.blocks.item import AnyItem, ItemKind
 
 
 @exactly_one_of()
@@ -15,9 +14,9 @@ class BlockItem(Choice):
     """An item of `blocks`: exactly one key, its kind."""
 
     @property
-    def item(self) -> Item:
+    def item(self) -> AnyItem:
         """What stands at its key."""
-        item: Item = self.chosen
+        item: AnyItem = self.chosen
         return item
 
     @property

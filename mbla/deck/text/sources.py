@@ -65,10 +65,8 @@ class SourceText:
 def _read_bytes(path: Path, label: str) -> bytes:
     """Content of a regular file.
 
-    Raises
-    ------
-    FileError
-        if it cannot be opened, or is a folder, pipe or device (opening does not block, so a pipe cannot hang)
+    Raises FileError if it cannot be opened, or is a folder, pipe or device (opening does not block, so a pipe cannot
+    hang).
     """
     try:
         descriptor = os.open(path, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0))

@@ -37,8 +37,7 @@ from mbla.model.blocks.curves import Curve, named_curve
 from mbla.model.blocks.curves.shape_keys import SHAPES_WITH, CurveShape, range_of_rise, shape_keys
 from mbla.model.blocks.curves.spline import through
 from mbla.model.blocks.generated import Generated, GroundPart, ItemContext, ItemRefused, Part
-from mbla.model.blocks.item import SPRINGERS, SpringingItem
-from mbla.model.blocks.item_kind import ItemKind, register_item
+from mbla.model.blocks.item import SPRINGERS, ItemKind, SpringingItem, register_item
 from mbla.model.solids.polyhedra import Polyhedra, prisms
 
 
@@ -146,10 +145,8 @@ def arch_points(arch: ArchItem) -> Iterator[Finding]:
 def generate(item: ArchItem, context: ItemContext) -> Generated:
     """Voussoirs ring by ring, from left to right in each; with them piers, ground or fixed blocks at the springings.
 
-    Raises
-    ------
-    ItemRefused
-        where the voussoirs are too few to be blocks or their joints cross, or the piers do not fit the springings
+    Raises ItemRefused where the voussoirs are too few to be blocks or their joints cross, or the piers do not fit the
+    springings.
     """
     springing = item.thickness if item.springing_thickness is None else item.springing_thickness
     inside = 0.5 if item.line == "centre" else 0.0

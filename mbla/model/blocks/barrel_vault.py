@@ -19,8 +19,7 @@ from mbla.errors import Finding
 from mbla.model.blocks.arches.haunches import Backing, backing_width, haunch_grounds, haunches, with_backing
 from mbla.model.blocks.arches.sections import ends_of, springer_polygons, springing_grounds, voussoir_polygons
 from mbla.model.blocks.generated import Generated, GroundPart, ItemContext, Part
-from mbla.model.blocks.item import SPRINGERS
-from mbla.model.blocks.item_kind import ItemKind, register_item
+from mbla.model.blocks.item import SPRINGERS, ItemKind, register_item
 from mbla.model.blocks.vaults.vault import VaultItem, check_curve, vault_section
 from mbla.model.solids.polyhedra import prisms
 

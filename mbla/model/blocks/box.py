@@ -11,12 +11,11 @@ from mbla.deck.quantities import Point, corners_in_order
 from mbla.deck.section import rule
 from mbla.errors import Finding
 from mbla.model.blocks.generated import Generated, ItemContext, Part
-from mbla.model.blocks.item import Item
-from mbla.model.blocks.item_kind import ItemKind, register_item
+from mbla.model.blocks.item import AnyItem, ItemKind, register_item
 from mbla.model.solids.polyhedra import cuboids
 
 
-class BoxItem(Item):
+class BoxItem(AnyItem):
     """One block: a cuboid along the axes."""
 
     min: Point = Field(description="corner with the least coordinates")

@@ -19,8 +19,7 @@ from mbla.deck.section import ROUNDING, Section, given, rule
 from mbla.errors import Finding
 from mbla.model.blocks.curves.shape_keys import CurveShape, range_of_rise, shape_keys
 from mbla.model.blocks.generated import Generated, ItemContext
-from mbla.model.blocks.item import Item
-from mbla.model.blocks.item_kind import ItemKind, register_item
+from mbla.model.blocks.item import AnyItem, ItemKind, register_item
 
 
 def _number_or_list(value: object) -> str:
@@ -61,7 +60,7 @@ class BridgeParapets(Section):
     thickness: PositiveLength = Field(description="extent along y, from each face inwards")
 
 
-class BridgeItem(Item):
+class BridgeItem(AnyItem):
     """An arch bridge in the x-z plane, extruded along +y: arches, piers, abutments, spandrels, backing, parapets.
 
     The springings are at z = 0, the first one of the intrados at the origin. Spandrels are coursed masonry cut to the

@@ -26,8 +26,7 @@ from mbla.deck.quantities import Count, Integer, NonNegativeLength, PositiveLeng
 from mbla.deck.section import Section, exactly_one_of, given, rule
 from mbla.errors import Finding
 from mbla.model.blocks.generated import Generated, ItemContext, Part
-from mbla.model.blocks.item import Item
-from mbla.model.blocks.item_kind import ItemKind, register_item
+from mbla.model.blocks.item import AnyItem, ItemKind, register_item
 from mbla.model.solids.polyhedra import chains
 
 
@@ -40,7 +39,7 @@ class ColumnEnd(Section):
     height: PositiveLength = Field(description="height")
 
 
-class ColumnItem(Item):
+class ColumnItem(AnyItem):
     """A column of drums that rises along +z, the middle of its underside at the origin.
 
     Drums are regular polygons with a flat towards +x, and frusta where the column tapers. Labels: `drum`; members

@@ -13,8 +13,7 @@ from mbla.deck.quantities import PositiveLength
 from mbla.deck.section import rule
 from mbla.errors import Finding
 from mbla.model.blocks.generated import Generated, ItemContext, ItemRefused
-from mbla.model.blocks.item import SPRINGERS
-from mbla.model.blocks.item_kind import ItemKind, register_item
+from mbla.model.blocks.item import SPRINGERS, ItemKind, register_item
 from mbla.model.blocks.vaults.mitred import (
     CORNERS,
     SHORTEST,

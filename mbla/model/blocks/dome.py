@@ -36,8 +36,7 @@ from mbla.errors import Finding
 from mbla.model.blocks.curves import named_curve, radius_of
 from mbla.model.blocks.curves.shapes import Smooth
 from mbla.model.blocks.generated import Generated, ItemContext, ItemRefused, Part, level_ground
-from mbla.model.blocks.item import SPRINGERS, SpringingItem
-from mbla.model.blocks.item_kind import ItemKind, register_item
+from mbla.model.blocks.item import SPRINGERS, ItemKind, SpringingItem, register_item
 from mbla.model.solids.polyhedra import Polyhedra, chains, join_polyhedra
 
 

@@ -1,20 +1,27 @@
-"""What every item of `blocks` has: a group, a material, a transform, copies; and what springs from its supports."""
+"""What every item of `blocks` has (a group, a material, a transform, copies), and what is known of its kind.
+
+A kind registers at the foot of its own file.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from typing import Literal
+from collections.abc import Callable, Iterator
+from dataclasses import KW_ONLY, dataclass
+from typing import Any, Literal
 
 from pydantic import Field
 
+from mbla.deck.kinds import Kind, register
+from mbla.deck.positions import BlockPosition
 from mbla.deck.quantities import Name
 from mbla.deck.section import Section, rule
 from mbla.deck.sections.placement import Repeat, Transform
+from mbla.deck.text.tree import KeyPath
 from mbla.errors import Finding
-from mbla.model.blocks.item_kind import SideGroup
+from mbla.model.blocks.generated import Generator
 
 
-class Item(Section):
+class AnyItem(Section):
     """What every item of `blocks` has."""
 
     group: Name | None = Field(None, description="name for selectors; default: the item's kind")
@@ -29,7 +36,7 @@ class Item(Section):
     )
 
 
-class SpringingItem(Item):
+class SpringingItem(AnyItem):
     """What springs from its supports: arches, domes and vaults."""
 
     springers: Literal["none", "ground", "blocks"] = Field(
@@ -47,5 +54,54 @@ def joint_of_ground(item: SpringingItem) -> Iterator[Finding]:
         yield Finding("key-of-another-choice", "applies with springers: ground only", "joint")
 
 
+@dataclass(frozen=True)
+class SideGroup:
+    """A group that an item makes beside its own, named after that: ``suffix`` follows the name.
+
+    values : of a key of the item, with which it makes the group
+    """
+
+    suffix: str
+    key: str
+    values: tuple[str, ...]
+
+
 SPRINGERS = SideGroup("_springers", "springers", ("blocks",))
 """fixed blocks behind the springings"""
+
+
+@dataclass(frozen=True)
+class ItemKind(Kind):
+    """A kind of items.
+
+    generate  : turns an item into polyhedra in its own coordinates
+    amount    : about how many units one copy of an item makes, known before it is made, and the key that matters most;
+                where blocks have many facets each of these counts; default: one, as of what cannot ask for much
+    positions : that it gives its blocks
+    groups    : that it may make beside its own
+    materials : key paths below the item that name materials, besides its own; ``#`` stands for every item of a list
+    files     : keys that name files; blocks from files have names of their own
+    flat_face : what to do where a block is one flat face, by the name of the block and whether there are more; of kinds
+                with files
+    place     : key path below the item at which a defect of a block is told, by the number of the face that has it;
+                default: at the item as a whole
+    """
+
+    generate: Generator
+    amount: Callable[[Any], tuple[float, str]] = lambda _: (1.0, "")
+    _: KW_ONLY
+    positions: tuple[BlockPosition, ...] = ()
+    groups: tuple[SideGroup, ...] = ()
+    materials: tuple[str, ...] = ()
+    files: tuple[str, ...] = ()
+    flat_face: Callable[[str, bool], str] | None = None
+    place: Callable[[int | None], KeyPath] = lambda _: ()
+
+
+ITEM_KINDS: dict[str, ItemKind] = {}
+"""by name"""
+
+
+def register_item(kind: ItemKind) -> None:
+    """Make a kind of items known."""
+    register(ITEM_KINDS, kind)

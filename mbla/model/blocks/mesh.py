@@ -13,11 +13,10 @@ from mbla.deck.sections.geometry_file import GeometryFile, Names
 from mbla.deck.text.tree import KeyPath
 from mbla.errors import Finding
 from mbla.model.blocks.generated import Generated, ItemContext
-from mbla.model.blocks.item import Item
-from mbla.model.blocks.item_kind import ItemKind, register_item
+from mbla.model.blocks.item import AnyItem, ItemKind, register_item
 
 
-class MeshItem(Item, GeometryFile):
+class MeshItem(AnyItem, GeometryFile):
     """Blocks from a geometry file: each closed surface or volume cell is one block.
 
     Objects, groups, layers and element sets of the file are `member` in selectors, under their names with `_` for

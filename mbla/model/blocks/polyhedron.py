@@ -12,12 +12,11 @@ from mbla.deck.section import rule
 from mbla.deck.text.tree import KeyPath
 from mbla.errors import Finding
 from mbla.model.blocks.generated import Generated, ItemContext, Part
-from mbla.model.blocks.item import Item
-from mbla.model.blocks.item_kind import ItemKind, register_item
+from mbla.model.blocks.item import AnyItem, ItemKind, register_item
 from mbla.model.solids.polyhedra import polyhedra_from_lists
 
 
-class PolyhedronItem(Item):
+class PolyhedronItem(AnyItem):
     """One block: a closed polyhedron with planar faces, convex or not."""
 
     vertices: list[Point] = Field(min_length=4, description="corner points")

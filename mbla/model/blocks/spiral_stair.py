@@ -23,12 +23,11 @@ from mbla.deck.quantities import Count, Integer, Name, NonNegativeLength, Positi
 from mbla.deck.section import rule
 from mbla.errors import Finding
 from mbla.model.blocks.generated import Generated, ItemContext, Part, level_ground
-from mbla.model.blocks.item import Item
-from mbla.model.blocks.item_kind import ItemKind, SideGroup, register_item
+from mbla.model.blocks.item import AnyItem, ItemKind, SideGroup, register_item
 from mbla.model.solids.polyhedra import Polyhedra, chains, join_polyhedra, polyhedra_from_cells
 
 
-class SpiralStairItem(Item):
+class SpiralStairItem(AnyItem):
     """A spiral stair of cantilevered treads about the z axis, rising counter-clockwise from z = 0.
 
     Each tread begins at the angle of its number times `angle`, rests with its front on the back of the one below, and

@@ -18,12 +18,11 @@ from mbla.deck.section import given, rule
 from mbla.deck.suggestions import listed
 from mbla.errors import Finding
 from mbla.model.blocks.generated import Generated, ItemContext, Part
-from mbla.model.blocks.item import Item
-from mbla.model.blocks.item_kind import ItemKind, register_item
+from mbla.model.blocks.item import AnyItem, ItemKind, register_item
 from mbla.model.solids.polyhedra import cuboids
 
 
-class StackItem(Item):
+class StackItem(AnyItem):
     """Equal cuboids one on the other along +z, the lowest with its least corner at the origin. Labels: `drum`."""
 
     block: tuple[PositiveLength, PositiveLength, PositiveLength] = Field(description="extents of a block along x, y, z")

@@ -6,11 +6,10 @@ from pydantic import Field
 
 from mbla.deck.sections.geometry_file import Names
 from mbla.model.blocks.generated import Generated, ItemContext
-from mbla.model.blocks.item import Item
-from mbla.model.blocks.item_kind import ItemKind, register_item
+from mbla.model.blocks.item import AnyItem, ItemKind, register_item
 
 
-class TableItem(Item):
+class TableItem(AnyItem):
     """Blocks from two tables of text (CSV), lengths in the deck's unit.
 
     The first line of each names the columns. Lines that begin with `#` are comments; semicolons may separate columns,

@@ -12,12 +12,11 @@ from mbla.deck.quantities import PositiveLength
 from mbla.deck.section import rule
 from mbla.errors import Finding
 from mbla.model.blocks.generated import Generated, ItemContext, Part
-from mbla.model.blocks.item import Item
-from mbla.model.blocks.item_kind import ItemKind, register_item
+from mbla.model.blocks.item import AnyItem, ItemKind, register_item
 from mbla.model.solids.polyhedra import cuboids
 
 
-class TrilithonItem(Item):
+class TrilithonItem(AnyItem):
     """Two uprights along x and a lintel on them, centred; the left upright has its least corner at the origin.
 
     Members `upright` and `lintel`; labels of the uprights: `unit` 0 and 1.

@@ -12,7 +12,7 @@ from mbla.deck.quantities import PositiveLength
 from mbla.deck.section import rule
 from mbla.errors import Finding
 from mbla.model.blocks.generated import Generated, ItemContext
-from mbla.model.blocks.item_kind import ItemKind, register_item
+from mbla.model.blocks.item import ItemKind, register_item
 from mbla.model.blocks.masonry.masonry import (
     MATERIALS,
     Buttress,
@@ -50,11 +50,8 @@ def wall(item: WallItem) -> Iterator[Finding]:
 def generate(item: WallItem, context: ItemContext) -> Generated:
     """Units course by course from the bottom, along +x in each, leaf by leaf; then lintels, arches, buttresses.
 
-    Raises
-    ------
-    ItemRefused
-        for openings off the bed joints, lintels and arches without support, buttresses across openings, or where
-        nothing is left of the wall
+    Raises ItemRefused for openings off the bed joints, lintels and arches without support, buttresses across openings,
+    or where nothing is left of the wall.
     """
     from mbla.model.blocks.masonry.plan import Line
     from mbla.model.blocks.masonry.walls import Walls, build_walls

@@ -14,7 +14,7 @@ from mbla.deck.quantities import Index, PlanePoint, Switch
 from mbla.deck.section import Section, rule
 from mbla.errors import Finding
 from mbla.model.blocks.generated import Generated, ItemContext
-from mbla.model.blocks.item_kind import ItemKind, register_item
+from mbla.model.blocks.item import ItemKind, register_item
 from mbla.model.blocks.masonry.masonry import (
     MATERIALS,
     Buttress,
@@ -141,11 +141,8 @@ def _check_turns(item: WallsItem) -> Iterator[Finding]:
 def generate(item: WallsItem, context: ItemContext) -> Generated:
     """Units wall by wall, in each course by course from the bottom, leaf by leaf; then lintels, arches, buttresses.
 
-    Raises
-    ------
-    ItemRefused
-        for walls that meet in part or lie on each other, openings off the bed joints or in corners, lintels and arches
-        without support, buttresses across openings, gables that meet
+    Raises ItemRefused for walls that meet in part or lie on each other, openings off the bed joints or in corners,
+    lintels and arches without support, buttresses across openings, gables that meet.
     """
     from mbla.model.blocks.masonry.walls import Walls, build_walls
 

@@ -55,10 +55,8 @@ class _Drawing:
 def read_dxf(path: Path) -> Geometry:
     """Outlines of a drawing as prism of unit thickness, in the order of the drawing; networks of lines follow.
 
-    Raises
-    ------
-    GeometryFileError
-        for files that are no DXF or have no closed outline, and for outlines that do not lie in the x-y plane
+    Raises GeometryFileError for files that are no DXF or have no closed outline, and for outlines that do not lie in
+    the x-y plane.
     """
     import ezdxf
 

@@ -45,10 +45,8 @@ class _Element:
 def read_ply(path: Path) -> Geometry:
     """The surface of a PLY file.
 
-    Raises
-    ------
-    GeometryFileError
-        for files that have other elements than they announce, or neither coordinates nor corners of faces
+    Raises GeometryFileError for files that have other elements than they announce, or neither coordinates nor corners
+    of faces.
     """
     header, end, body = path.read_bytes().partition(b"end_header")
     if not end:

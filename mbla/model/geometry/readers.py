@@ -57,10 +57,8 @@ def _read_within_memory(reader: Callable[[Path], Geometry], path: Path) -> Geome
 def read_geometry(path: Path) -> Geometry:
     """What a geometry file holds, as read.
 
-    Raises
-    ------
-    GeometryFileError
-        for unknown extensions, files that cannot be read, malformed ones, and files without blocks
+    Raises GeometryFileError for unknown extensions, files that cannot be read, malformed ones, and files without
+    blocks.
     """
     reader = READERS.get(path.suffix.lower())
     if reader is None:

@@ -23,7 +23,7 @@ from mbla.deck.quantities import (
 )
 from mbla.deck.section import ROUNDING, Section, rule
 from mbla.errors import Finding
-from mbla.model.blocks.item import Item
+from mbla.model.blocks.item import AnyItem
 
 
 class Lintel(Section):
@@ -108,7 +108,7 @@ MATERIALS = ("openings.#.lintel.material", "openings.#.arch.material")
 BondName = Literal["running", "stretcher", "stack", "english", "flemish", "header"]
 
 
-class Masonry(Item):
+class Masonry(AnyItem):
     """Keys of all walls."""
 
     unit: tuple[PositiveLength, PositiveLength, PositiveLength] = Field(
