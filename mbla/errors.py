@@ -29,7 +29,10 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from itertools import islice
-from typing import Literal
+from typing import Literal, TypeAlias
+
+KeyPath: TypeAlias = tuple[str | int, ...]
+"""of a value in a deck: ("blocks", 3, "wall", "length")"""
 
 
 class Message(str):
@@ -161,7 +164,7 @@ class Fault:
         return printable(f"{self.place} {subject}: {self.message}" if subject else f"{self.place} {self.message}")
 
 
-class Finding(tuple[tuple[str | int, ...], Message]):
+class Finding(tuple[KeyPath, Message]):
     """What a check of a part of a deck finds wrong: the key path below that part, and the message."""
 
     __slots__ = ()

@@ -9,8 +9,7 @@ import numpy as np
 from mbla.arrays import IntArray
 from mbla.assembly.assembly import Assembly
 from mbla.assembly.rigid_bodies import RigidBodies, guides_at_odds
-from mbla.deck.text.tree import KeyPath
-from mbla.errors import Message
+from mbla.errors import KeyPath, Message
 from mbla.model.model import LoadCase
 from mbla.model.objective import ENDS
 from mbla.model.ties.ties import OUTSIDE

@@ -10,8 +10,7 @@ import numpy as np
 from mbla.arrays import BoolArray, FloatArray, IntArray, row_of_item, starts
 from mbla.contacts.outlines.overlay import Overlays, in_space
 from mbla.contacts.outlines.refine import InterfacePoints
-from mbla.deck.text.tree import KeyPath
-from mbla.errors import Notice, Refusal
+from mbla.errors import KeyPath, Notice, Refusal
 from mbla.process.imports import import_scipy
 
 import_scipy()  # before the stages that compute

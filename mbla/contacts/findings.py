@@ -15,8 +15,7 @@ from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.contacts.contacts import Contacts
 from mbla.contacts.notices import overlap_messages
 from mbla.deck.deck import Deck
-from mbla.deck.text.tree import KeyPath
-from mbla.errors import Fault, Message
+from mbla.errors import Fault, KeyPath, Message
 from mbla.model.items import defects_in_words
 from mbla.model.model import Model
 from mbla.model.solids.defects import planarity_defects

@@ -21,10 +21,10 @@ from mbla.deck.sections.analysis import AnalysisSection
 from mbla.deck.sections.contacts import ContactsSection
 from mbla.deck.text.include import Reading, confined, read_files
 from mbla.deck.text.overrides import apply_override
-from mbla.deck.text.tree import KeyPath, Tree
+from mbla.deck.text.tree import Tree
 from mbla.deck.units import Units
 from mbla.deck.validation import validate
-from mbla.errors import MOST_FAULTS, DeckError, Fault, FileError, Message, Notice, first_faults
+from mbla.errors import MOST_FAULTS, DeckError, Fault, FileError, KeyPath, Message, Notice, first_faults
 from mbla.process.collector import no_collection
 
 

@@ -8,7 +8,7 @@ from typing import Annotated, Any, Union, get_args, get_origin
 
 from pydantic import BaseModel
 
-from mbla.deck.text.tree import KeyPath
+from mbla.errors import KeyPath
 
 
 def allowed_keys(root: type[BaseModel], path: KeyPath) -> list[str]:

@@ -11,10 +11,10 @@ from mbla.deck.content import DeckContent
 from mbla.deck.expressions import Parameters
 from mbla.deck.references import unused_names
 from mbla.deck.sections.analysis import APPLIES
-from mbla.deck.text.tree import KeyPath, Tree, key_text
+from mbla.deck.text.tree import Tree, key_text
 from mbla.deck.units import Units
 from mbla.deck.unusual import unusual_gravity, unusual_values
-from mbla.errors import Message, Notice
+from mbla.errors import KeyPath, Message, Notice
 
 
 def notices_of(tree: Tree, content: DeckContent, units: Units, parameters: Parameters) -> tuple[Notice, ...]:

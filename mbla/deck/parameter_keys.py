@@ -15,9 +15,9 @@ from mbla.deck.fields import allowed_keys, annotations_at, branches, sections_at
 from mbla.deck.quantities import Quantity
 from mbla.deck.suggestions import listed, unknown
 from mbla.deck.text.overrides import RefusedError, item_index, next_key
-from mbla.deck.text.tree import KeyPath, Tree, key_text, shorten
+from mbla.deck.text.tree import Tree, key_text, shorten
 from mbla.deck.units import Units
-from mbla.errors import Fault, Message
+from mbla.errors import Fault, KeyPath, Message
 
 FIXED = {
     "include": "files are included before anything is set",

@@ -19,8 +19,8 @@ from mbla.deck.sections.loads import LOAD_KEYS
 from mbla.deck.sections.materials import BUILT_IN
 from mbla.deck.sections.selectors import GROUND
 from mbla.deck.suggestions import unknown
-from mbla.deck.text.tree import KeyPath, Tree
-from mbla.errors import Fault, Message
+from mbla.deck.text.tree import Tree
+from mbla.errors import Fault, KeyPath, Message
 
 
 @dataclass(frozen=True)

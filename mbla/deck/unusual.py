@@ -15,9 +15,9 @@ from mbla.deck.content import DeckContent
 from mbla.deck.sections.assessment import LIMIT_STATES, SpectrumSection
 from mbla.deck.sections.load_cases import supports_of
 from mbla.deck.sections.loads import Load
-from mbla.deck.text.tree import KeyPath, Tree
+from mbla.deck.text.tree import Tree
 from mbla.deck.units import METRES, STANDARD_GRAVITY, Units
-from mbla.errors import Message, Notice
+from mbla.errors import KeyPath, Message, Notice
 
 GRAVITY_TOLERANCE = 0.02
 """Covers 9.8, 9.80665 and the variation over the earth."""

@@ -11,8 +11,8 @@ from mbla.deck.fields import allowed_keys, description
 from mbla.deck.quantities import PATTERNS
 from mbla.deck.section import MOST_WRONG, WRONG, TooManyWrongError, WrongValues, built
 from mbla.deck.suggestions import did_you_mean, listed, unknown
-from mbla.deck.text.tree import KeyPath, MappingMarks, SequenceMarks, Tree, own_mark
-from mbla.errors import MOST_FAULTS, Fault, Message, first_faults
+from mbla.deck.text.tree import MappingMarks, SequenceMarks, Tree, own_mark
+from mbla.errors import MOST_FAULTS, Fault, KeyPath, Message, first_faults
 
 Convert = Callable[[str, str], float]
 Root = TypeVar("Root", bound=BaseModel)

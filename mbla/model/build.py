@@ -16,9 +16,8 @@ from mbla.deck.deck import Deck
 from mbla.deck.sections.load_cases import LoadCaseSection
 from mbla.deck.sections.loads import AddedMass
 from mbla.deck.sections.materials import FRICTIONLESS, JointLaw
-from mbla.deck.text.tree import KeyPath
 from mbla.deck.units import Units
-from mbla.errors import DeckError, Fault, Finding, Message, Notice
+from mbla.errors import DeckError, Fault, Finding, KeyPath, Message, Notice
 from mbla.model.block_sizes import unusual_sizes
 from mbla.model.drawn_joints import close_joints, joints_in_words
 from mbla.model.fill import Fill, build_fill

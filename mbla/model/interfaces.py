@@ -17,8 +17,7 @@ from mbla.arrays import FloatArray, IntArray, starts
 from mbla.deck.deck import Deck
 from mbla.deck.sections.materials import BUILT_IN
 from mbla.deck.suggestions import did_you_mean, unknown
-from mbla.deck.text.tree import KeyPath
-from mbla.errors import DeckError, Message
+from mbla.errors import DeckError, KeyPath, Message
 from mbla.model.model import Ground, PrescribedInterfaces
 from mbla.model.selectors import BlockSelection
 from mbla.model.solids.blocks import Blocks

@@ -13,9 +13,8 @@ from mbla.deck.deck import Deck
 from mbla.deck.positions import COPY
 from mbla.deck.sections.blocks import BlockItem
 from mbla.deck.sections.materials import Material
-from mbla.deck.text.tree import KeyPath
 from mbla.deck.units import Units
-from mbla.errors import DeckError, Fault, Finding, Message, Notice
+from mbla.errors import DeckError, Fault, Finding, KeyPath, Message, Notice
 from mbla.model.blocks.generated import Generated, ItemContext, ItemRefused, Part
 from mbla.model.geometry.sheets import sheets
 from mbla.model.model import Ground

@@ -10,8 +10,7 @@ import numpy as np
 from mbla.arrays import FloatArray, IntArray
 from mbla.deck.load_key import LOAD_KEYS
 from mbla.deck.sections.load_cases import LoadCaseSection, supports_of
-from mbla.deck.text.tree import KeyPath
-from mbla.errors import Finding
+from mbla.errors import Finding, KeyPath
 from mbla.model.applied_load import AppliedLoad, without_levers
 from mbla.model.loads.entry import Entry, entries_of
 from mbla.model.loads.gravity import gravity_of, with_gravity

@@ -25,8 +25,7 @@ from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.deck.sections.load_cases import LoadCaseSection
 from mbla.deck.sections.objective import ForceSection, ObjectiveSection
 from mbla.deck.suggestions import listed
-from mbla.deck.text.tree import KeyPath
-from mbla.errors import Finding
+from mbla.errors import Finding, KeyPath
 from mbla.model.applied_load import without_forces
 from mbla.model.guides import Guides, held_along
 from mbla.model.loads.load_site import LoadSite

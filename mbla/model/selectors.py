@@ -12,8 +12,7 @@ from mbla.arrays import BoolArray, IntArray
 from mbla.deck.sections.contacts import ContactOverride
 from mbla.deck.sections.selectors import GROUND, OUTER_FIRST, Selector, SelectorTerm
 from mbla.deck.suggestions import unknown
-from mbla.deck.text.tree import KeyPath
-from mbla.errors import Fault, Finding, Message, Notice
+from mbla.errors import Fault, Finding, KeyPath, Message, Notice
 from mbla.model.solids.blocks import Blocks
 from mbla.model.wording import vector
 

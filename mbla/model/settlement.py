@@ -24,8 +24,7 @@ import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.deck.sections.load_cases import LoadCaseSection, SettlementSection, supports_of
-from mbla.deck.text.tree import KeyPath
-from mbla.errors import Finding
+from mbla.errors import Finding, KeyPath
 from mbla.model.applied_load import AppliedLoad, without_levers
 from mbla.model.guides import slide, turn
 from mbla.model.model import LoadCase

@@ -13,8 +13,7 @@ from mbla.deck.sections.contacts import ContactsSection
 from mbla.deck.sections.geometry_file import GeometryFile
 from mbla.deck.sections.supports import Plane
 from mbla.deck.sections.supports import Surface as SurfaceSection
-from mbla.deck.text.tree import KeyPath
-from mbla.errors import DeckError, Finding
+from mbla.errors import DeckError, Finding, KeyPath
 from mbla.model.blocks.files.members import placed_vertices, read_members, surfaces_of_sheets
 from mbla.model.blocks.generated import ItemRefused
 from mbla.model.geometry.sheets import sheets

@@ -10,8 +10,7 @@ import shapely
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.deck.sections.contacts import ContactsSection
-from mbla.deck.text.tree import KeyPath
-from mbla.errors import Finding
+from mbla.errors import Finding, KeyPath
 from mbla.model.geometry.sheets import fitted_plane, flattened
 from mbla.model.model import Ground
 from mbla.model.selectors import BlockSelection

@@ -18,8 +18,7 @@ from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.deck.deck import Deck
 from mbla.deck.sections.load_cases import LoadCaseSection
 from mbla.deck.sections.supports import SymmetryPlane
-from mbla.deck.text.tree import KeyPath
-from mbla.errors import DeckError, Finding, Notice
+from mbla.errors import DeckError, Finding, KeyPath, Notice
 from mbla.model.applied_load import AppliedLoad
 from mbla.model.fill import Fill
 from mbla.model.guides import Guides

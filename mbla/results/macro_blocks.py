@@ -26,8 +26,7 @@ from mbla.deck.parameter_keys import path_of_key
 from mbla.deck.references import groups
 from mbla.deck.sections.materials import GLUED
 from mbla.deck.sections.selectors import GROUND
-from mbla.deck.text.tree import KeyPath
-from mbla.errors import UsageError
+from mbla.errors import KeyPath, UsageError
 from mbla.results.collapse.rigid_parts import part_motions, parts_of_one_twist
 from mbla.results.files import OutputFolder
 from mbla.results.listing.sections.mechanism_words import motion_words

@@ -11,8 +11,8 @@ from mbla.deck.deck import Deck, check_regular, read_deck
 from mbla.deck.parameter_keys import path_of_key, unit_of, vector_at
 from mbla.deck.suggestions import unknown
 from mbla.deck.text.overrides import LABEL, RefusedError
-from mbla.deck.text.tree import KeyPath, Tree
-from mbla.errors import DeckError, Fault, FileError, Message, Place
+from mbla.deck.text.tree import Tree
+from mbla.errors import DeckError, Fault, FileError, KeyPath, Message, Place
 from mbla.sweeps.base_rules import base_faults
 from mbla.sweeps.design.design import DesignPoint, Sources, Vector
 from mbla.sweeps.file.content import DIRECTIONS, key_paths, way_of

@@ -18,8 +18,8 @@ from mbla.deck.fields import annotations_at
 from mbla.deck.parameter_keys import path_of_key, unit_of, value_at, vector_at
 from mbla.deck.suggestions import unknown
 from mbla.deck.text.overrides import LABEL, RefusedError
-from mbla.deck.text.tree import KeyPath, key_text, shorten
-from mbla.errors import DeckError, Fault, Finding, Message, Place
+from mbla.deck.text.tree import key_text, shorten
+from mbla.errors import DeckError, Fault, Finding, KeyPath, Message, Place
 from mbla.sweeps.file.content import DIRECTIONS, Parameter, way_of
 from mbla.sweeps.file.rules import key_places
 from mbla.sweeps.plan import override_texts

@@ -17,8 +17,8 @@ from mbla.deck.parameter_keys import path_of_key
 from mbla.deck.references import side_files
 from mbla.deck.text.include import confined, read_files
 from mbla.deck.text.overrides import RefusedError, apply_override
-from mbla.deck.text.tree import KeyPath, Tree, key_text
-from mbla.errors import DeckError, FileError
+from mbla.deck.text.tree import Tree, key_text
+from mbla.errors import DeckError, FileError, KeyPath
 
 WITHOUT_EFFECT = ("title", "output", "expected", "include")
 """keys that do not change what a deck gives; what `include` names is merged in"""

@@ -11,7 +11,6 @@ from mbla.deck.text.sources import SourceText
 from mbla.deck.text.tree import (
     FILE_SHIFT,
     OFFSET_MASK,
-    KeyPath,
     MappingMarks,
     SequenceMarks,
     Tree,
@@ -19,7 +18,7 @@ from mbla.deck.text.tree import (
     plain_scalar,
     shorten,
 )
-from mbla.errors import MOST_FAULTS, Message
+from mbla.errors import MOST_FAULTS, KeyPath, Message
 
 
 def read(text: str) -> tuple[object, list[str]]:

@@ -7,8 +7,7 @@ import pytest
 from pydantic import TypeAdapter
 
 from mbla.deck.sections.selectors import Selector
-from mbla.deck.text.tree import KeyPath
-from mbla.errors import Fault, Message, Place
+from mbla.errors import Fault, KeyPath, Message, Place
 from mbla.model.selectors import BlockSelection, select_blocks
 from mbla.model.solids.blocks import BlockLabels, join_labels, labels_of
 from mbla.model.solids.build import Labels, build_blocks

@@ -9,8 +9,8 @@ from mbla.deck.fields import takes_names
 from mbla.deck.suggestions import unknown
 from mbla.deck.text.reader import read_yaml
 from mbla.deck.text.sources import SourceText
-from mbla.deck.text.tree import FILE_SHIFT, KeyPath, MappingMarks, Marks, SequenceMarks, Tree, key_text, shorten
-from mbla.errors import Fault, Message, Refusal
+from mbla.deck.text.tree import FILE_SHIFT, MappingMarks, Marks, SequenceMarks, Tree, key_text, shorten
+from mbla.errors import Fault, KeyPath, Message, Refusal
 
 LABEL = "--set"
 

@@ -15,7 +15,6 @@ from mbla.deck.text.sources import DECK, FileKind, SourceText, has_control_chara
 from mbla.deck.text.tree import (
     FILE_SHIFT,
     OFFSET_MASK,
-    KeyPath,
     MappingMarks,
     Marks,
     SequenceMarks,
@@ -24,7 +23,7 @@ from mbla.deck.text.tree import (
     plain_scalar,
     shorten,
 )
-from mbla.errors import MOST_FAULTS, Fault, Message, Place, ValueRefused
+from mbla.errors import MOST_FAULTS, Fault, KeyPath, Message, Place, ValueRefused
 
 MAX_DEPTH = 64
 """Nesting of brackets and indentation; the deck's own types need ten."""

@@ -15,9 +15,8 @@ from dataclasses import dataclass
 from typing import Any, TypeAlias
 
 from mbla.deck.text.sources import SourceText
-from mbla.errors import Fault, Message, Place, ValueRefused, printable
+from mbla.errors import Fault, KeyPath, Message, Place, ValueRefused, printable
 
-KeyPath: TypeAlias = tuple[str | int, ...]
 FILE_SHIFT = 32
 OFFSET_MASK = (1 << FILE_SHIFT) - 1
 _LONGEST_VALUE = 60

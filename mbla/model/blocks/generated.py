@@ -10,8 +10,7 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
-from mbla.deck.text.tree import KeyPath
-from mbla.errors import Finding, Notice
+from mbla.errors import Finding, KeyPath, Notice
 from mbla.model.solids.polyhedra import Polyhedra
 from mbla.model.solids.surface import Surface
 

@@ -16,8 +16,7 @@ from mbla.deck.positions import BlockPosition
 from mbla.deck.quantities import Name
 from mbla.deck.section import Section, rule
 from mbla.deck.sections.placement import Repeat, Transform
-from mbla.deck.text.tree import KeyPath
-from mbla.errors import Finding
+from mbla.errors import Finding, KeyPath
 from mbla.model.blocks.generated import Generator
 
 

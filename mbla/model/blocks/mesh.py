@@ -10,8 +10,7 @@ from pydantic import Field
 from mbla.deck.quantities import Name, PositiveLength, Switch
 from mbla.deck.section import rule
 from mbla.deck.sections.geometry_file import GeometryFile, Names
-from mbla.deck.text.tree import KeyPath
-from mbla.errors import Finding
+from mbla.errors import Finding, KeyPath
 from mbla.model.blocks.generated import Generated, ItemContext
 from mbla.model.blocks.item import AnyItem, ItemKind, register_item
 

@@ -9,8 +9,7 @@ from pydantic import Field
 
 from mbla.deck.quantities import Index, Point
 from mbla.deck.section import rule
-from mbla.deck.text.tree import KeyPath
-from mbla.errors import Finding
+from mbla.errors import Finding, KeyPath
 from mbla.model.blocks.generated import Generated, ItemContext, Part
 from mbla.model.blocks.item import AnyItem, ItemKind, register_item
 from mbla.model.solids.polyhedra import polyhedra_from_lists

@@ -12,7 +12,7 @@ from pydantic import Field
 from mbla.deck.positions import COURSE, LEAF, SEGMENT, UNIT, VOUSSOIR
 from mbla.deck.quantities import Index, PlanePoint, Switch
 from mbla.deck.section import Section, rule
-from mbla.errors import Finding
+from mbla.errors import Finding, KeyPath
 from mbla.model.blocks.generated import Generated, ItemContext
 from mbla.model.blocks.item import ItemKind, register_item
 from mbla.model.blocks.masonry.masonry import (
@@ -98,7 +98,7 @@ def walls(item: WallsItem) -> Iterator[Finding]:
             yield Finding("duplicate-key", f"wall {segment} has a gable already", "gables", number, "segment")
 
 
-def plan_lines(item: WallsItem) -> Iterator[tuple[tuple[str | int, ...], Sequence[float], Sequence[float]]]:
+def plan_lines(item: WallsItem) -> Iterator[tuple[KeyPath, Sequence[float], Sequence[float]]]:
     """Key path, start and end of each wall's line: those of the plan, then the cross walls."""
     points = [*item.plan, item.plan[0]] if item.closed else item.plan
     for number in range(len(points) - 1):
@@ -107,7 +107,7 @@ def plan_lines(item: WallsItem) -> Iterator[tuple[tuple[str | int, ...], Sequenc
         yield ("cross_walls", number, "to"), cross.from_, cross.to
 
 
-def _check_lines(lines: Sequence[tuple[tuple[str | int, ...], Sequence[float], Sequence[float]]]) -> Iterator[Finding]:
+def _check_lines(lines: Sequence[tuple[KeyPath, Sequence[float], Sequence[float]]]) -> Iterator[Finding]:
     """Each line has a length, and runs along x or along y."""
     for path, start, end in lines:
         short, long = sorted(abs(b - a) for a, b in zip(start, end, strict=True))

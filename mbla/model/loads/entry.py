@@ -11,7 +11,7 @@ from typing import Any
 
 from mbla.deck.load_key import LOAD_KEYS, NAMED
 from mbla.deck.sections.any_load import AnyLoad
-from mbla.deck.text.tree import KeyPath
+from mbla.errors import KeyPath
 
 
 @dataclass(frozen=True)

@@ -15,8 +15,8 @@ from mbla.arrays import FloatArray, IntArray
 from mbla.deck.load_key import register_load
 from mbla.deck.quantities import Acceleration, Vector
 from mbla.deck.sections.any_load import AnyLoad
-from mbla.deck.text.tree import KeyPath
 from mbla.deck.units import Units
+from mbla.errors import KeyPath
 from mbla.model.applied_load import AppliedLoad
 from mbla.model.loads.entry import Entry
 from mbla.model.loads.load_kind import LoadKind

@@ -16,8 +16,7 @@ from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.deck.load_key import register_load
 from mbla.deck.quantities import Direction, ForcePerLength, Point
 from mbla.deck.section import Section, rule
-from mbla.deck.text.tree import KeyPath
-from mbla.errors import Finding
+from mbla.errors import Finding, KeyPath
 from mbla.model.applied_load import AppliedLoad, sum_on_blocks, wrenches_of
 from mbla.model.loads.blocks_under import Below
 from mbla.model.loads.dispersal import Spread

@@ -11,8 +11,7 @@ from functools import cached_property
 import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
-from mbla.deck.text.tree import KeyPath
-from mbla.errors import Finding, Notice
+from mbla.errors import Finding, KeyPath, Notice
 from mbla.model.applied_load import sum_on_blocks, wrenches_of
 from mbla.model.fill import FillBody
 from mbla.model.loads.blocks_under import Below

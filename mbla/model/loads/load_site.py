@@ -9,9 +9,8 @@ from pathlib import Path
 from mbla.arrays import BoolArray
 from mbla.deck.sections.any_load import AnyLoad
 from mbla.deck.sections.vehicles import Vehicle
-from mbla.deck.text.tree import KeyPath
 from mbla.deck.units import Units
-from mbla.errors import Finding, Notice
+from mbla.errors import Finding, KeyPath, Notice
 from mbla.model.fill import FillBody
 from mbla.model.model import Ground
 from mbla.model.selectors import BlockSelection

@@ -24,8 +24,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray, IntArray, summed
 from mbla.deck.sections.any_load import HeightPattern
-from mbla.deck.text.tree import KeyPath
-from mbla.errors import Finding
+from mbla.errors import Finding, KeyPath
 from mbla.model.loads.load_site import LoadSite
 from mbla.model.solids.blocks import Blocks
 from mbla.model.solids.plane import cut, unit

@@ -23,8 +23,7 @@ from mbla.arrays import FloatArray, IntArray
 from mbla.deck.load_key import register_load
 from mbla.deck.quantities import Box, Direction, FacingAngle, Length, Stress, UnitWeight, WallFrictionAngle
 from mbla.deck.section import Section, rule
-from mbla.deck.text.tree import KeyPath
-from mbla.errors import Finding
+from mbla.errors import Finding, KeyPath
 from mbla.model.applied_load import AppliedLoad, sum_on_blocks, wrenches_of
 from mbla.model.loads.entry import Entry
 from mbla.model.loads.face_parts import FaceParts, face_parts

@@ -22,8 +22,7 @@ from mbla.deck.load_key import register_load
 from mbla.deck.quantities import Direction, Force, Name, Point, Positions, PositiveLength
 from mbla.deck.section import Section, exactly_one_of, given, rule
 from mbla.deck.sections.vehicles import DOWN, TOWARDS, WIDTH, Axle
-from mbla.deck.text.tree import KeyPath
-from mbla.errors import Finding, Notice
+from mbla.errors import Finding, KeyPath, Notice
 from mbla.model.applied_load import AppliedLoad
 from mbla.model.loads.blocks_under import Below
 from mbla.model.loads.dispersal import Spread

@@ -11,7 +11,7 @@ import numpy as np
 from mbla.arrays import BoolArray, starts
 from mbla.deck.section import given
 from mbla.deck.sections.ties import FORMS, Plate, TieSection
-from mbla.deck.text.tree import KeyPath
+from mbla.errors import KeyPath
 from mbla.model.selectors import BlockSelection
 from mbla.model.ties.lines import TieLine, TieSite, build_lines
 from mbla.model.ties.ties import NO_TIES, Ties, joined_ties

@@ -12,7 +12,7 @@ from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.deck.section import given
 from mbla.deck.sections.strengthen import PATTERNS, Across, Candidate, Vertical
 from mbla.deck.sections.ties import TieSection
-from mbla.deck.text.tree import KeyPath
+from mbla.errors import KeyPath
 from mbla.model.model import Ground
 from mbla.model.selectors import BlockSelection, select_blocks
 from mbla.model.solids.plane import plane_axes, unit

@@ -11,8 +11,7 @@ import numpy as np
 from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.deck.sections.selectors import GROUND
 from mbla.deck.sections.ties import Ring, TieSection
-from mbla.deck.text.tree import KeyPath
-from mbla.errors import Finding
+from mbla.errors import Finding, KeyPath
 from mbla.model.selectors import BlockSelection, select_blocks
 from mbla.model.solids.blocks import Blocks
 from mbla.model.solids.plane import unit

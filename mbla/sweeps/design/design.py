@@ -7,8 +7,7 @@ from dataclasses import asdict, dataclass
 from typing import Any, TypeAlias
 
 from mbla.deck.suggestions import listed
-from mbla.deck.text.tree import KeyPath
-from mbla.errors import Fault, Message
+from mbla.errors import Fault, KeyPath, Message
 from mbla.results.listing.text import INDENT, counted, entry, heading, sentence, shortened, table
 from mbla.sweeps.file.content import PartOfDesign, SweepContent
 from mbla.sweeps.plan import Plain

@@ -14,7 +14,7 @@ from pydantic import BeforeValidator, Discriminator, Field, Tag
 from mbla.deck.content import no_boolean
 from mbla.deck.quantities import NAME_PATTERN, Integer, Line, Name, Number, PositiveNumber, Quantity, Switch, Time
 from mbla.deck.section import Section, shape
-from mbla.deck.text.tree import KeyPath
+from mbla.errors import KeyPath
 
 MAX_POINTS = 1_000_000
 """points of one sweep; more would not give a readable table"""

@@ -9,10 +9,9 @@ from pathlib import Path
 from mbla.deck.expressions import is_expression
 from mbla.deck.text.include import read_files
 from mbla.deck.text.sources import FileKind
-from mbla.deck.text.tree import KeyPath
 from mbla.deck.units import Units
 from mbla.deck.validation import validate
-from mbla.errors import DeckError, Fault, Message, ValueRefused
+from mbla.errors import DeckError, Fault, KeyPath, Message, ValueRefused
 from mbla.process.collector import no_collection
 from mbla.sweeps.file import rules as rules
 from mbla.sweeps.file.content import SweepContent

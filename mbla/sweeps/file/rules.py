@@ -12,8 +12,8 @@ from mbla.deck.comparisons import read_comparison
 from mbla.deck.expressions import ExpressionError
 from mbla.deck.section import one_of, rule
 from mbla.deck.suggestions import listed, unknown
-from mbla.deck.text.tree import KeyPath, shorten
-from mbla.errors import Finding
+from mbla.deck.text.tree import shorten
+from mbla.errors import Finding, KeyPath
 from mbla.sweeps.design.directions import FULL_CIRCLE
 from mbla.sweeps.file import content as types
 from mbla.sweeps.file.content import (

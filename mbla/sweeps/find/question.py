@@ -10,8 +10,8 @@ from mbla.deck import Deck
 from mbla.deck.parameter_keys import number_at, path_of_key, unit_of
 from mbla.deck.sections.find import MOST_STEPS, TOLERANCE
 from mbla.deck.text.overrides import RefusedError
-from mbla.deck.text.tree import KeyPath, key_text
-from mbla.errors import UsageError
+from mbla.deck.text.tree import key_text
+from mbla.errors import KeyPath, UsageError
 
 TARGETS = {
     "load_factor": "load factor",

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from mbla.deck.text.tree import KeyPath, key_text
-from mbla.errors import Fault, Message, Place
+from mbla.deck.text.tree import key_text
+from mbla.errors import Fault, KeyPath, Message, Place
 from mbla.sweeps.design.build import design_of
 from mbla.sweeps.design.design import Design, Sources, Vector
 from mbla.sweeps.file import rules

@@ -8,7 +8,7 @@ from typing import Literal, TypeAlias
 
 from mbla.deck.section import ROUNDING, Section, given, one_of
 from mbla.deck.suggestions import listed
-from mbla.errors import Finding
+from mbla.errors import Finding, KeyPath
 
 CurveShape: TypeAlias = Literal["semicircular", "segmental", "pointed", "elliptic", "catenary", "basket"]
 SIDE_ANGLE = 60.0
@@ -39,9 +39,7 @@ def shape_keys(section: Section, shape: str, keys: tuple[str, ...]) -> Iterator[
             yield Finding("key-of-another-choice", words, key)
 
 
-def range_of_rise(
-    shape: str, span: float, rise: float, side_angle: float | None, path: tuple[str | int, ...]
-) -> Iterator[Finding]:
+def range_of_rise(shape: str, span: float, rise: float, side_angle: float | None, path: KeyPath) -> Iterator[Finding]:
     """A pointed curve is more than a semicircle high, a basket less, and high enough for its side arcs.
 
     None is so flat that its rise over its span is none.

@@ -14,8 +14,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from mbla.arrays import FloatArray
-from mbla.deck.text.tree import KeyPath
-from mbla.errors import Finding
+from mbla.errors import Finding, KeyPath
 from mbla.model.blocks.masonry.leg import Passage
 
 SAME_PLACE = 1e-6

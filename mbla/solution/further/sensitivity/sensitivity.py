@@ -19,8 +19,7 @@ from mbla.deck import Deck
 from mbla.deck.parameter_keys import number_at, path_of_key, unit_of
 from mbla.deck.section import ROUNDING
 from mbla.deck.sections.materials import JointLaw
-from mbla.deck.text.tree import KeyPath
-from mbla.errors import Message
+from mbla.errors import KeyPath, Message
 from mbla.model.model import Joint, LoadCase
 from mbla.solution.further.sensitivity.lagrangian import (
     State,
