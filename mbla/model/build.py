@@ -25,7 +25,7 @@ from mbla.model.fill_restraint import fill_struts
 from mbla.model.interfaces import read_interfaces
 from mbla.model.items import CollectedItems, collect_items, defects_in_words, density_of
 from mbla.model.load_cases import build_load_cases
-from mbla.model.loads.load_site import LoadSite
+from mbla.model.loads.load_kind import LoadSite
 from mbla.model.model import Ground, Joint, LoadCase, Model, PrescribedInterfaces
 from mbla.model.objective import build_objective
 from mbla.model.outside import outside

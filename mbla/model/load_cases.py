@@ -12,10 +12,8 @@ from mbla.deck.load_key import LOAD_KEYS
 from mbla.deck.sections.load_cases import LoadCaseSection, supports_of
 from mbla.errors import Finding, KeyPath
 from mbla.model.applied_load import AppliedLoad, without_levers
-from mbla.model.loads.entry import Entry, entries_of
 from mbla.model.loads.gravity import gravity_of, with_gravity
-from mbla.model.loads.load_kind import CaseKind, Variant, load_kind
-from mbla.model.loads.load_site import LoadSite
+from mbla.model.loads.load_kind import CaseKind, Entry, LoadSite, Variant, entries_of, load_kind
 from mbla.model.loads.travel import case_name
 from mbla.model.model import LoadCase, Pushing
 from mbla.model.selectors import select_blocks

@@ -28,7 +28,7 @@ from mbla.deck.suggestions import listed
 from mbla.errors import Finding, KeyPath
 from mbla.model.applied_load import without_forces
 from mbla.model.guides import Guides, held_along
-from mbla.model.loads.load_site import LoadSite
+from mbla.model.loads.load_kind import LoadSite
 from mbla.model.model import LoadCase
 from mbla.model.selectors import select_blocks
 from mbla.model.settlement import size_of_loads

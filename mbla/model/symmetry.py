@@ -23,9 +23,8 @@ from mbla.model.applied_load import AppliedLoad
 from mbla.model.fill import Fill
 from mbla.model.guides import Guides
 from mbla.model.join import halves_joined, polyhedra_of
-from mbla.model.loads.entry import entries_of
 from mbla.model.loads.gravity import with_gravity
-from mbla.model.loads.load_kind import load_kind
+from mbla.model.loads.load_kind import entries_of, load_kind
 from mbla.model.model import Ground, LoadCase, Model, Pushing
 from mbla.model.selectors import BlockSelection, check_overrides, select_blocks
 from mbla.model.settlement import with_reference

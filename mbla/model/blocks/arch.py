@@ -14,12 +14,11 @@ from typing import Literal
 import numpy as np
 from pydantic import Field
 
-from mbla.arrays import FloatArray, IntArray
 from mbla.deck.positions import COURSE, RING, UNIT, VOUSSOIR
 from mbla.deck.quantities import Count, EmbraceAngle, PlanePoint, PositiveLength, SideAngle, SkewAngle
 from mbla.deck.section import ROUNDING, Section, rule
 from mbla.errors import Finding
-from mbla.model.blocks.arches.haunches import Backing, backing_width, haunch_grounds, haunches, with_backing
+from mbla.model.blocks.arches.haunches import Backing, backing_width, grounds_behind, haunches, with_backing
 from mbla.model.blocks.arches.sections import (
     ArchSection,
     build_section,
@@ -31,14 +30,15 @@ from mbla.model.blocks.arches.sections import (
     springing_grounds,
     springing_joints,
     stacks,
+    through,
+    units_across,
     voussoir_polygons,
 )
 from mbla.model.blocks.curves import Curve, named_curve
 from mbla.model.blocks.curves.shape_keys import SHAPES_WITH, CurveShape, range_of_rise, shape_keys
-from mbla.model.blocks.curves.spline import through
+from mbla.model.blocks.curves.spline import curve_through
 from mbla.model.blocks.generated import Generated, GroundPart, ItemContext, ItemRefused, Part
 from mbla.model.blocks.item import SPRINGERS, ItemKind, SpringingItem, register_item
-from mbla.model.solids.polyhedra import Polyhedra, prisms
 
 
 class ArchPiers(Section):
@@ -159,9 +159,10 @@ def generate(item: ArchItem, context: ItemContext) -> Generated:
         made = haunches(item.backing, section, width, lambda _: np.array([[0.0, item.width]]), shear)
         parts.append(made[0])
         if item.springers != "none":
-            grounds = haunch_grounds(*made[1:], len(voussoirs.polyhedra), item.joint)
+            grounds = grounds_behind(made[1], len(voussoirs.polyhedra), item.joint)
     if item.springers == "blocks":
-        parts.append(Part(_through(item, springer_polygons(section, springing), shear), SPRINGERS.suffix, fixed=True))
+        behind = through(springer_polygons(section, springing), (0.0, item.width), shear)
+        parts.append(Part(behind, SPRINGERS.suffix, fixed=True))
     if item.springers == "ground":
         grounds = (*springing_grounds(section, voussoirs.labels["voussoir"], item.joint, shear), *grounds)
     parts += _piers(item, item.piers, section, shear) if item.piers else ()
@@ -170,7 +171,7 @@ def generate(item: ArchItem, context: ItemContext) -> Generated:
 
 def _curve(item: ArchItem) -> Curve:
     if item.points is not None:
-        return through(item.points)
+        return curve_through(item.points)
     assert item.span is not None  # a rule of the deck
     return named_curve(item.shape, item.span, item.rise, item.embrace, item.side_angle)
 
@@ -181,14 +182,8 @@ def _voussoirs(item: ArchItem, section: ArchSection, shear: float) -> Part:
     even = np.linspace(0.0, item.width, item.units_across + 1)
     odd = np.concatenate([[0.0], (even[:-1] + even[1:]) / 2, [item.width]]) if item.units_across > 1 else even
     rows = [ends_of(odd if shifted else even) for shifted in (number + ring) % 2]
-    block = np.repeat(np.arange(len(polygons)), [len(row) for row in rows])
-    unit = np.concatenate([np.arange(len(row)) for row in rows])
-    labels: dict[str, IntArray] = {"voussoir": number[block], "ring": ring[block], "unit": unit}
-    made = prisms([polygons[row] for row in block.tolist()], np.concatenate(rows), shear)
-    return Part(made, member="voussoir", labels=labels)
-
-
-# --- springings ---------------------------------------------------------------------------------------------------
+    made, block, unit = units_across(polygons, rows, shear)
+    return Part(made, member="voussoir", labels={"voussoir": number[block], "ring": ring[block], "unit": unit})
 
 
 def _piers(item: ArchItem, piers: ArchPiers, section: ArchSection, shear: float) -> Iterator[Part]:
@@ -203,19 +198,14 @@ def _piers(item: ArchItem, piers: ArchPiers, section: ArchSection, shear: float)
         raise ItemRefused(Finding("arch-shape", "the piers would overlap: nothing is left of the clear span", "piers"))
     places = [(left - piers.width, left, left_top), (right, right + piers.width, right_top)]
     blocks = stacks(places, piers.height, piers.courses)
-    count = np.arange(len(blocks))
-    yield Part(_through(item, blocks, shear), member="pier", labels={"course": count // 2, "unit": count % 2})
+    count, across = np.arange(len(blocks)), (0.0, item.width)
+    yield Part(through(blocks, across, shear), member="pier", labels={"course": count // 2, "unit": count % 2})
     springers = [(side, end_springer(joint, piers.width)) for side, joint in enumerate(joints)]
     polygons = [polygon for _, polygon in springers if polygon is not None]
     if polygons:
         sides = np.array([side for side, polygon in springers if polygon is not None])
         labels = {"course": np.full(len(sides), piers.courses), "unit": sides}
-        yield Part(_through(item, polygons, shear), member="springer", labels=labels)
-
-
-def _through(item: ArchItem, polygons: list[FloatArray], shear: float) -> Polyhedra:
-    """Blocks over the full width."""
-    return prisms(polygons, np.tile([0.0, item.width], (len(polygons), 1)), shear)
+        yield Part(through(polygons, across, shear), member="springer", labels=labels)
 
 
 def amount(item: ArchItem) -> tuple[float, str]:

@@ -16,12 +16,18 @@ from mbla.deck.positions import COURSE, UNIT
 from mbla.deck.quantities import PositiveLength
 from mbla.deck.section import rule
 from mbla.errors import Finding
-from mbla.model.blocks.arches.haunches import Backing, backing_width, haunch_grounds, haunches, with_backing
-from mbla.model.blocks.arches.sections import ends_of, springer_polygons, springing_grounds, voussoir_polygons
+from mbla.model.blocks.arches.haunches import Backing, backing_width, grounds_behind, haunches, with_backing
+from mbla.model.blocks.arches.sections import (
+    ends_of,
+    springer_polygons,
+    springing_grounds,
+    through,
+    units_across,
+    voussoir_polygons,
+)
 from mbla.model.blocks.generated import Generated, GroundPart, ItemContext, Part
 from mbla.model.blocks.item import SPRINGERS, ItemKind, register_item
-from mbla.model.blocks.vaults.vault import VaultItem, check_curve, vault_section
-from mbla.model.solids.polyhedra import prisms
+from mbla.model.blocks.vaults.vault import VaultItem, check_apex, check_curve, vault_section
 
 NO_UNIT = 1e-6
 """length of a remainder, relative to the unit, that is no unit of its own"""
@@ -50,6 +56,7 @@ def vault_backing(vault: BarrelVaultItem) -> Iterator[Finding]:
 def vault_curve(vault: BarrelVaultItem) -> Iterator[Finding]:
     """The curve spans the vault."""
     yield from check_curve(vault, vault.span)
+    yield from check_apex(vault)
 
 
 def generate(item: BarrelVaultItem, context: ItemContext) -> Generated:
@@ -64,19 +71,16 @@ def generate(item: BarrelVaultItem, context: ItemContext) -> Generated:
         return _ends(item, item.bond == "running" and course % 2 == 1)
 
     rows = [across(course) for course in range(item.courses)]
-    course = np.repeat(np.arange(item.courses), [len(row) for row in rows])
-    polygons = voussoir_polygons(section)[0]
-    units = prisms([polygons[number] for number in course.tolist()], np.concatenate(rows))
-    labels = {"course": course, "unit": np.concatenate([np.arange(len(row)) for row in rows])}
-    member = "barrel" if item.backing else ""
-    parts, grounds = [Part(units, member=member, labels=labels)], tuple[GroundPart, ...]()
+    units, course, unit = units_across(voussoir_polygons(section)[0], rows)
+    barrel = Part(units, member="barrel" if item.backing else "", labels={"course": course, "unit": unit})
+    parts, grounds = [barrel], tuple[GroundPart, ...]()
     if item.backing is not None:
         made = haunches(item.backing, section, None, across)
         parts.append(made[0])
         if item.springers != "none":
-            grounds = haunch_grounds(*made[1:], len(units), item.joint)
+            grounds = grounds_behind(made[1], len(units), item.joint)
     if item.springers == "blocks":
-        behind = prisms(springer_polygons(section, item.thickness), np.tile([0.0, item.length], (2, 1)))
+        behind = through(springer_polygons(section, item.thickness), (0.0, item.length))
         parts.append(Part(behind, SPRINGERS.suffix, fixed=True))
     if item.springers == "ground":
         grounds = (*springing_grounds(section, course, item.joint), *grounds)

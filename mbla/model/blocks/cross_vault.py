@@ -2,18 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 import numpy as np
 from pydantic import Field
 
 from mbla.arrays import FloatArray
-from mbla.deck.positions import COURSE, SEGMENT, SPAN, UNIT
 from mbla.deck.quantities import PositiveLength
 from mbla.deck.section import rule
 from mbla.errors import Finding
 from mbla.model.blocks.generated import Generated, ItemContext, ItemRefused
-from mbla.model.blocks.item import SPRINGERS, ItemKind, register_item
 from mbla.model.blocks.vaults.mitred import (
     CORNERS,
     SHORTEST,
@@ -23,9 +19,10 @@ from mbla.model.blocks.vaults.mitred import (
     half_section,
     mitred_block,
     mitred_vault,
+    register_vault,
     units_between,
 )
-from mbla.model.blocks.vaults.vault import check_curve
+from mbla.model.blocks.vaults.vault import check_apex
 
 LEAST_EDGE = 1e-3
 """of the thickness: the webs of a cross vault end at least so far beyond the feet of the groins"""
@@ -52,10 +49,7 @@ class CrossVaultItem(MitredVaultItem):
     )
 
 
-@rule(CrossVaultItem)
-def vault_curve(vault: CrossVaultItem) -> Iterator[Finding]:
-    """The curve spans the bay along x."""
-    yield from check_curve(vault, vault.bay[0])
+rule(CrossVaultItem)(check_apex)
 
 
 def edge_of(item: CrossVaultItem) -> float:
@@ -127,14 +121,4 @@ def amount(item: CrossVaultItem) -> tuple[float, str]:
     return item.courses * (sum(item.bay) + 4 * edge_of(item)) / item.unit, "unit"
 
 
-register_item(
-    ItemKind(
-        "cross_vault",
-        CrossVaultItem,
-        generate,
-        amount,
-        after="barrel_vault",
-        positions=(COURSE, SPAN, UNIT, SEGMENT),
-        groups=(SPRINGERS,),
-    )
-)
+register_vault("cross_vault", CrossVaultItem, generate, amount, after="barrel_vault")

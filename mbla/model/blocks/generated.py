@@ -47,9 +47,11 @@ class GroundPart:
     joint: str | None
 
 
-def level_ground(blocks: IntArray, joint: str | None) -> GroundPart:
-    """Level ground at z = 0 under blocks of an item, (n,)."""
-    return GroundPart(np.zeros(3), np.array([0.0, 0.0, 1.0]), blocks, joint)
+def level_ground(
+    blocks: IntArray, joint: str | None, point: tuple[float, float, float] = (0.0, 0.0, 0.0)
+) -> GroundPart:
+    """Level ground at a point under blocks of an item, (n,)."""
+    return GroundPart(np.array(point), np.array([0.0, 0.0, 1.0]), blocks, joint)
 
 
 @dataclass(frozen=True)

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import KW_ONLY, dataclass
-from typing import Any, Literal
+from typing import Any, Literal, TypeAlias
 
 from pydantic import Field
 
@@ -69,13 +69,17 @@ SPRINGERS = SideGroup("_springers", "springers", ("blocks",))
 """fixed blocks behind the springings"""
 
 
+Amount: TypeAlias = Callable[[Any], tuple[float, str]]
+"""About how many units one copy of an item makes, known before it is made, and the key that matters most; where blocks
+have many facets each of these counts."""
+
+
 @dataclass(frozen=True)
 class ItemKind(Kind):
     """A kind of items.
 
     generate  : turns an item into polyhedra in its own coordinates
-    amount    : about how many units one copy of an item makes, known before it is made, and the key that matters most;
-                where blocks have many facets each of these counts; default: one, as of what cannot ask for much
+    amount    : how much an item asks for; default: one, as of what cannot ask for much
     positions : that it gives its blocks
     groups    : that it may make beside its own
     materials : key paths below the item that name materials, besides its own; ``#`` stands for every item of a list
@@ -87,7 +91,7 @@ class ItemKind(Kind):
     """
 
     generate: Generator
-    amount: Callable[[Any], tuple[float, str]] = lambda _: (1.0, "")
+    amount: Amount = lambda _: (1.0, "")
     _: KW_ONLY
     positions: tuple[BlockPosition, ...] = ()
     groups: tuple[SideGroup, ...] = ()

@@ -8,12 +8,10 @@ import numpy as np
 from pydantic import Field
 
 from mbla.arrays import FloatArray
-from mbla.deck.positions import COURSE, SEGMENT, SPAN, UNIT
 from mbla.deck.quantities import PositiveLength
 from mbla.deck.section import rule
 from mbla.errors import Finding
 from mbla.model.blocks.generated import Generated, ItemContext
-from mbla.model.blocks.item import SPRINGERS, ItemKind, register_item
 from mbla.model.blocks.vaults.mitred import (
     SHORTEST,
     HalfSection,
@@ -22,9 +20,9 @@ from mbla.model.blocks.vaults.mitred import (
     half_section,
     mitred_block,
     mitred_vault,
+    register_vault,
     units_between,
 )
-from mbla.model.blocks.vaults.vault import check_curve
 
 
 class PavilionVaultItem(MitredVaultItem):
@@ -50,12 +48,6 @@ def pavilion_keystone(vault: PavilionVaultItem) -> Iterator[Finding]:
     if vault.shape == "pointed":
         words = "must not be pointed: a keystone closes the crown, and the apex would be a kink in it"
         yield Finding("vault-shape", words, "shape")
-
-
-@rule(PavilionVaultItem)
-def vault_curve(vault: PavilionVaultItem) -> Iterator[Finding]:
-    """The curve spans the bay along x."""
-    yield from check_curve(vault, vault.bay[0], joint_at_apex=False)
 
 
 def generate(item: PavilionVaultItem, context: ItemContext) -> Generated:
@@ -94,14 +86,4 @@ def amount(item: PavilionVaultItem) -> tuple[float, str]:
     return item.courses * sum(item.bay) / item.unit, "unit"
 
 
-register_item(
-    ItemKind(
-        "pavilion_vault",
-        PavilionVaultItem,
-        generate,
-        amount,
-        after="cross_vault",
-        positions=(COURSE, SPAN, UNIT, SEGMENT),
-        groups=(SPRINGERS,),
-    )
-)
+register_vault("pavilion_vault", PavilionVaultItem, generate, amount, after="cross_vault")

@@ -11,9 +11,7 @@ from mbla.arrays import IntArray
 from mbla.deck.load_key import register_load
 from mbla.deck.quantities import Vector
 from mbla.model.applied_load import AppliedLoad
-from mbla.model.loads.entry import Entry
-from mbla.model.loads.load_kind import LoadKind
-from mbla.model.loads.load_site import LoadSite
+from mbla.model.loads.load_kind import Entry, LoadKind, LoadSite
 from mbla.model.loads.mass_forces import mass_forces
 from mbla.model.loads.pattern_factors import pattern_factors
 from mbla.model.wording import counted, vector

@@ -18,9 +18,7 @@ from mbla.deck.sections.any_load import AnyLoad
 from mbla.deck.units import Units
 from mbla.errors import KeyPath
 from mbla.model.applied_load import AppliedLoad
-from mbla.model.loads.entry import Entry
-from mbla.model.loads.load_kind import LoadKind
-from mbla.model.loads.load_site import LoadSite
+from mbla.model.loads.load_kind import Entry, LoadKind, LoadSite
 from mbla.model.loads.mass_forces import mass_forces
 from mbla.model.wording import vector
 

@@ -20,10 +20,8 @@ from mbla.errors import Finding, KeyPath
 from mbla.model.applied_load import AppliedLoad, sum_on_blocks, wrenches_of
 from mbla.model.loads.blocks_under import Below
 from mbla.model.loads.dispersal import Spread
-from mbla.model.loads.entry import Entry
 from mbla.model.loads.load_footprint import PARALLEL, LoadFootprint, level
-from mbla.model.loads.load_kind import LoadKind
-from mbla.model.loads.load_site import LoadSite
+from mbla.model.loads.load_kind import Entry, LoadKind, LoadSite
 from mbla.model.wording import counted, vector
 
 

@@ -16,7 +16,7 @@ from mbla.model.applied_load import sum_on_blocks, wrenches_of
 from mbla.model.fill import FillBody
 from mbla.model.loads.blocks_under import Below
 from mbla.model.loads.dispersal import Spread, beside, emerging, spread
-from mbla.model.loads.load_site import LoadSite
+from mbla.model.loads.load_kind import LoadSite
 from mbla.model.wording import named, vector
 
 PARALLEL = 1e-6

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
-from mbla.model.loads.load_site import LoadSite
+from mbla.model.loads.load_kind import LoadSite
 from mbla.model.loads.pattern_factors import PatternFactors
 
 

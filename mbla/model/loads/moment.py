@@ -8,10 +8,7 @@ from mbla.arrays import IntArray
 from mbla.deck.load_key import register_load
 from mbla.deck.quantities import Moment
 from mbla.model.applied_load import AppliedLoad, without_levers
-from mbla.model.loads.entry import Entry
-from mbla.model.loads.load_kind import LoadKind
-from mbla.model.loads.load_site import LoadSite
-from mbla.model.loads.one_block import one_block
+from mbla.model.loads.load_kind import Entry, LoadKind, LoadSite, one_block
 from mbla.model.wording import vector
 
 

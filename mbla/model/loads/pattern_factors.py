@@ -25,7 +25,7 @@ import numpy as np
 from mbla.arrays import FloatArray, IntArray, summed
 from mbla.deck.sections.any_load import HeightPattern
 from mbla.errors import Finding, KeyPath
-from mbla.model.loads.load_site import LoadSite
+from mbla.model.loads.load_kind import LoadSite
 from mbla.model.solids.blocks import Blocks
 from mbla.model.solids.plane import cut, unit
 from mbla.model.solids.ragged import items_of_rows

@@ -25,10 +25,8 @@ from mbla.deck.quantities import Box, Direction, FacingAngle, Length, Stress, Un
 from mbla.deck.section import Section, rule
 from mbla.errors import Finding, KeyPath
 from mbla.model.applied_load import AppliedLoad, sum_on_blocks, wrenches_of
-from mbla.model.loads.entry import Entry
 from mbla.model.loads.face_parts import FaceParts, face_parts
-from mbla.model.loads.load_kind import LoadKind
-from mbla.model.loads.load_site import LoadSite
+from mbla.model.loads.load_kind import Entry, LoadKind, LoadSite
 from mbla.model.solids.blocks import Blocks
 from mbla.model.solids.plane import cut, unit
 from mbla.model.solids.ragged import items_of_rows, row_means

@@ -12,9 +12,7 @@ from mbla.deck.load_key import register_load
 from mbla.deck.suggestions import did_you_mean, listed
 from mbla.errors import DeckError, Message
 from mbla.model.applied_load import AppliedLoad, sum_on_blocks, wrenches_of
-from mbla.model.loads.entry import Entry
-from mbla.model.loads.load_kind import LoadKind
-from mbla.model.loads.load_site import LoadSite
+from mbla.model.loads.load_kind import Entry, LoadKind, LoadSite
 from mbla.model.tables import Table, TableRefused, read_table
 from mbla.model.wording import counted
 

@@ -21,10 +21,8 @@ from mbla.deck.quantities import Direction
 from mbla.deck.section import Section
 from mbla.errors import Finding
 from mbla.model.applied_load import AppliedLoad
-from mbla.model.loads.entry import Entry
 from mbla.model.loads.gravity import GRAVITY, gravity_of
-from mbla.model.loads.load_kind import CaseKind, Variant
-from mbla.model.loads.load_site import LoadSite
+from mbla.model.loads.load_kind import CaseKind, Entry, LoadSite, Variant
 from mbla.model.loads.mass_forces import mass_forces
 from mbla.model.solids.plane import unit
 from mbla.model.wording import vector

@@ -26,10 +26,8 @@ from mbla.errors import Finding, KeyPath, Notice
 from mbla.model.applied_load import AppliedLoad
 from mbla.model.loads.blocks_under import Below
 from mbla.model.loads.dispersal import Spread
-from mbla.model.loads.entry import Entry
 from mbla.model.loads.load_footprint import LoadFootprint, level, on_blocks, share_of
-from mbla.model.loads.load_kind import CaseKind, Variant
-from mbla.model.loads.load_site import LoadSite
+from mbla.model.loads.load_kind import CaseKind, Entry, LoadSite, Variant
 from mbla.model.loads.vehicle import Axles, axles_in_row, axles_of, remark_upwards
 from mbla.model.selectors import select_blocks
 from mbla.model.wording import counted, vector

@@ -16,10 +16,8 @@ from mbla.deck.sections.vehicles import DOWN, TOWARDS, Axle, Vehicle
 from mbla.errors import Finding
 from mbla.model.applied_load import AppliedLoad
 from mbla.model.loads.blocks_under import Below
-from mbla.model.loads.entry import Entry
 from mbla.model.loads.load_footprint import LoadFootprint, level, on_blocks
-from mbla.model.loads.load_kind import LoadKind
-from mbla.model.loads.load_site import LoadSite
+from mbla.model.loads.load_kind import Entry, LoadKind, LoadSite
 from mbla.model.solids.plane import unit
 from mbla.model.wording import counted, vector
 

@@ -27,8 +27,7 @@ from mbla.deck import Deck
 from mbla.deck.section import given
 from mbla.errors import UsageError
 from mbla.model import build_model
-from mbla.model.loads.entry import Entry, entries_of
-from mbla.model.loads.load_kind import load_kind
+from mbla.model.loads.load_kind import Entry, entries_of, load_kind
 from mbla.model.model import Model
 from mbla.sweeps.design.directions import FULL_CIRCLE, horizontal
 from mbla.sweeps.plan import Plain, override_texts

@@ -16,7 +16,7 @@ from mbla.arrays import FloatArray, IntArray
 from mbla.errors import Finding
 from mbla.model.blocks.curves import Curve
 from mbla.model.blocks.generated import GroundPart, ItemRefused
-from mbla.model.solids.polyhedra import in_space
+from mbla.model.solids.polyhedra import Polyhedra, in_space, prisms
 
 
 @dataclass(frozen=True)
@@ -225,3 +225,17 @@ def end_springer(joint: SpringingJoint, width: float) -> FloatArray | None:
 def ends_of(joints: FloatArray) -> FloatArray:
     """Both ends of each unit between joints (n + 1,), (n, 2)."""
     return np.stack([joints[:-1], joints[1:]], axis=1)
+
+
+def units_across(
+    polygons: Sequence[FloatArray], ends: Sequence[FloatArray], shear: float = 0.0
+) -> tuple[Polyhedra, IntArray, IntArray]:
+    """Prisms of each polygon between ends along y, (n, 2) each: all of them, the polygon of each, its number across."""
+    polygon = np.repeat(np.arange(len(polygons)), [len(each) for each in ends])
+    made = prisms([polygons[row] for row in polygon.tolist()], np.concatenate(ends), shear)
+    return made, polygon, np.concatenate([np.arange(len(each)) for each in ends])
+
+
+def through(polygons: Sequence[FloatArray], across: Sequence[float], shear: float = 0.0) -> Polyhedra:
+    """Prisms of polygons between two places along y, the same for all."""
+    return prisms(polygons, np.tile(across, (len(polygons), 1)), shear)

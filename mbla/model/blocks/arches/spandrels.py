@@ -69,7 +69,7 @@ SAME = 1e-9
 
 
 @dataclass(frozen=True)
-class Masonry:
+class CoursedMasonry:
     """Length and height of a unit, and the distance that is rounding [length].
 
     extent : of what is built of it, at least; units may be larger
@@ -85,7 +85,9 @@ class Masonry:
         return SAME * min(self.height, self.extent)
 
 
-def bed_levels(outline: Outline, top: float, crowns: FloatArray, shelves: FloatArray, masonry: Masonry) -> FloatArray:
+def bed_levels(
+    outline: Outline, top: float, crowns: FloatArray, shelves: FloatArray, masonry: CoursedMasonry
+) -> FloatArray:
     """Beds (n,) [length] from the springings, 0, to the top, ascending.
 
     crowns  : heights of extrados crowns, over which a course must have a thickness
@@ -132,7 +134,7 @@ class Course:
 
 
 def course_pieces(
-    outline: Outline, course: Course, masonry: Masonry
+    outline: Outline, course: Course, masonry: CoursedMasonry
 ) -> tuple[list[FloatArray], tuple[tuple[float, float], ...]]:
     """Polygons (k, 2) of a course from left to right, counter-clockwise; and the pits that it leaves to the next."""
     same = masonry.same
@@ -152,7 +154,7 @@ def course_pieces(
 
 
 def coursed(
-    outline: Outline, beds: FloatArray, ends: tuple[float, float], masonry: Masonry
+    outline: Outline, beds: FloatArray, ends: tuple[float, float], masonry: CoursedMasonry
 ) -> tuple[list[FloatArray], IntArray, IntArray]:
     """Polygons (k, 2) of all courses between beds (n + 1,), with course and position of each, (m,)."""
     polygons: list[FloatArray] = []
@@ -182,7 +184,7 @@ def _snapped(bed: float, marks: FloatArray, within: float) -> float:
     return nearest if abs(nearest - bed) < within else bed
 
 
-def _cut(outline: Outline, course: Course, ends: tuple[float, float], masonry: Masonry) -> list[FloatArray]:
+def _cut(outline: Outline, course: Course, ends: tuple[float, float], masonry: CoursedMasonry) -> list[FloatArray]:
     """A stretch of a course, cut by those joints of the bond that leave no slivers."""
     same = masonry.same
     corners = outline.points[outline.points[:, 1] > course.low + same, 0]
@@ -200,7 +202,7 @@ def _cut(outline: Outline, course: Course, ends: tuple[float, float], masonry: M
     return [_piece(outline, course, a, b, same) for a, b in pairwise(joints)]
 
 
-def _short(polygon: FloatArray, masonry: Masonry) -> bool:
+def _short(polygon: FloatArray, masonry: CoursedMasonry) -> bool:
     return _area(polygon) < LEAST_PIECE * masonry.length * float(np.ptp(polygon[:, 1]))
 
 

@@ -21,11 +21,11 @@ from mbla.model.blocks.arches.sections import (
     end_springer,
     springing_joints,
     stacks,
+    through,
     voussoir_polygons,
 )
 from mbla.model.blocks.curves import Curve, named_curve
 from mbla.model.blocks.generated import ItemRefused, Part
-from mbla.model.solids.polyhedra import prisms
 
 if TYPE_CHECKING:
     from mbla.model.blocks.bridge import BridgeItem
@@ -44,7 +44,7 @@ class BridgeFrame:
 
 def part_through(member: str, polygons: list[FloatArray], across: Sequence[float], labels: dict[str, IntArray]) -> Part:
     """Blocks of one member of the bridge from their polygons; ``across`` are both their ends along y, labels (n,)."""
-    return Part(prisms(polygons, np.tile(across, (len(polygons), 1))), member=member, labels=labels)
+    return Part(through(polygons, across), member=member, labels=labels)
 
 
 def frame_of(item: BridgeItem) -> BridgeFrame:

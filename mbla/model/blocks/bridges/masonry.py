@@ -11,7 +11,7 @@ from mbla.arrays import FloatArray, IntArray
 from mbla.errors import Finding
 from mbla.model.blocks.arches.spandrels import (
     Course,
-    Masonry,
+    CoursedMasonry,
     Outline,
     bed_levels,
     bond_of_course,
@@ -36,7 +36,7 @@ def masonry(item: BridgeItem, frame: BridgeFrame) -> list[Part]:
     top = float(crowns.max()) + item.cover
     if not np.isfinite(top + frame.right - frame.left):
         return []  # coordinates beyond what a double holds: the voussoirs are refused
-    laid = Masonry(*item.unit, extent=min(top, frame.right - frame.left))
+    laid = CoursedMasonry(*item.unit, extent=min(top, frame.right - frame.left))
     shelves = np.array([springer[:, 1].max() for springer in frame.springers if springer is not None])
     beds = bed_levels(outline, top, crowns, shelves, laid)
     polygons, course, unit = coursed(outline, beds, (frame.left, frame.right), laid)
@@ -78,7 +78,7 @@ def _along_both_faces(
     return Part(prisms(polygons * 2, across), member=member, labels=both)
 
 
-def _parapets(item: BridgeItem, frame: BridgeFrame, laid: Masonry, top: float, course: int) -> Part:
+def _parapets(item: BridgeItem, frame: BridgeFrame, laid: CoursedMasonry, top: float, course: int) -> Part:
     """One course on both faces, in bond with the course under it."""
     assert item.parapets is not None
     height = item.parapets.height

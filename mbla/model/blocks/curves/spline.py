@@ -20,7 +20,7 @@ RULE = 12
 """points of Gauss's rule on a panel"""
 
 
-def through(points: Sequence[Sequence[float]]) -> Smooth:
+def curve_through(points: Sequence[Sequence[float]]) -> Smooth:
     """Smooth curve through points (x, z) [length], at least three, in order from left to right."""
     from scipy.interpolate import CubicSpline
 

@@ -22,12 +22,13 @@ from typing import TypeAlias
 import numpy as np
 
 from mbla.arrays import FloatArray
+from mbla.deck.positions import COURSE, SEGMENT, SPAN, UNIT
 from mbla.deck.quantities import PositiveLength
 from mbla.deck.section import ROUNDING, rule
 from mbla.errors import Finding
-from mbla.model.blocks.generated import Generated, Part, level_ground
-from mbla.model.blocks.item import SPRINGERS
-from mbla.model.blocks.vaults.vault import VaultItem, vault_section
+from mbla.model.blocks.generated import Generated, Generator, Part, level_ground
+from mbla.model.blocks.item import SPRINGERS, Amount, ItemKind, register_item
+from mbla.model.blocks.vaults.vault import VaultItem, check_curve, vault_section
 from mbla.model.solids.polyhedra import Polyhedra, chains, join_polyhedra
 
 
@@ -39,6 +40,12 @@ class MitredVaultItem(VaultItem):
 
 LEVEL = ("semicircular", "pointed", "elliptic")
 """shapes that are upright at their springings, so that the joints there are level"""
+
+
+@rule(MitredVaultItem)
+def curve_over_bay(vault: MitredVaultItem) -> Iterator[Finding]:
+    """The curve spans the bay along x."""
+    yield from check_curve(vault, vault.bay[0])
 
 
 @rule(MitredVaultItem)
@@ -168,3 +175,9 @@ def _keystone(section: HalfSection) -> Polyhedra:
     flat = distance[:, None, None] * (np.array(CORNERS, dtype=np.float64) * [1.0, section.stretch])
     levels = np.broadcast_to(height[:, None, None], (2, 4, 1))
     return chains(np.concatenate([flat, levels], axis=2)[None])
+
+
+def register_vault(name: str, section: type[MitredVaultItem], generate: Generator, amount: Amount, after: str) -> None:
+    """Make a kind of mitred vaults known."""
+    positions = (COURSE, SPAN, UNIT, SEGMENT)
+    register_item(ItemKind(name, section, generate, amount, after=after, positions=positions, groups=(SPRINGERS,)))

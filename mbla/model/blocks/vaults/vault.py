@@ -35,12 +35,16 @@ class VaultItem(SpringingItem):
     bond: Literal["running", "stack"] = Field("running", description="running: odd courses shifted by half a unit")
 
 
-def check_curve(vault: VaultItem, span: float, *, joint_at_apex: bool = True) -> Iterator[Finding]:
-    """A semicircle is given by its span alone, other shapes by what they need; the apex of a pointed one is a joint."""
+def check_curve(vault: VaultItem, span: float) -> Iterator[Finding]:
+    """A semicircle is given by its span alone, other shapes by what they need."""
     yield from shape_keys(vault, vault.shape, ("rise", "embrace"))
     if vault.rise is not None:
         yield from range_of_rise(vault.shape, span, vault.rise, None, ("rise",))
-    if vault.shape == "pointed" and vault.courses % 2 and joint_at_apex:
+
+
+def check_apex(vault: VaultItem) -> Iterator[Finding]:
+    """The apex of a pointed vault is a joint."""
+    if vault.shape == "pointed" and vault.courses % 2:
         yield Finding("out-of-bounds", "must be even for a pointed vault: its apex is a joint", "courses")
 
 

@@ -9,7 +9,7 @@ from scipy.integrate import quad
 from mbla.arrays import FloatArray
 from mbla.model.blocks.curves import Curve, named_curve
 from mbla.model.blocks.curves.shapes import Pointed, basket, catenary, circle, ellipse, segmental
-from mbla.model.blocks.curves.spline import through
+from mbla.model.blocks.curves.spline import curve_through
 
 SPAN = 4.0
 GIVEN = [(0.0, 0.0), (0.4, 1.0), (1.3, 1.7), (2.6, 1.8), (3.7, 0.9), (4.0, 0.2)]
@@ -23,7 +23,7 @@ CURVES: dict[str, Curve] = {
     "catenary": catenary(SPAN, 2.5),
     "basket": basket(SPAN, 1.3, np.radians(60)),
     "pointed": Pointed(SPAN, 3.0),
-    "spline": through(GIVEN),
+    "spline": curve_through(GIVEN),
 }
 SYMMETRIC = [name for name in CURVES if name != "spline"]
 LEVEL = ("semicircle", "flat ellipse", "tall ellipse", "basket", "pointed")
@@ -157,7 +157,7 @@ def test_the_lines_beside_a_pointed_arch_meet_on_the_axis() -> None:
 def test_a_spline_through_points_of_a_circle_comes_close_to_it() -> None:
     angles = np.linspace(-1.2, 1.2, 15)
     given = np.stack([np.sin(angles) - np.sin(-1.2), np.cos(angles) - np.cos(1.2)], axis=1)
-    curve = through(given.tolist())
+    curve = curve_through(given.tolist())
     joints = curve.divide(8, 0.2)
     arc = circle(float(2 * np.sin(1.2)), 1.2)
     expected = arc.points(arc.divide(8, 0.2), np.full((9, 1), 0.2))
