@@ -36,7 +36,7 @@ from mbla.model.solids.build import BuiltBlocks, build_blocks
 from mbla.model.solids.defects import far_away
 from mbla.model.solids.facets import BentFaces
 from mbla.model.supports import Supports, build_supports, does_nothing
-from mbla.model.symmetry import with_images
+from mbla.model.symmetry.symmetry import with_images
 from mbla.model.ties.build import build_ties
 from mbla.model.ties.ties import Ties, joined_ties
 from mbla.model.wording import named, vector
