@@ -8,18 +8,19 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, TypeAlias, TypeVar
+from typing import Annotated, Any, TypeAlias, TypeVar, get_args, get_origin
 
 from pydantic import (
     BaseModel,
     ConfigDict,
+    GetCoreSchemaHandler,
     ModelWrapValidatorHandler,
     ValidationError,
     ValidationInfo,
     create_model,
     model_validator,
 )
-from pydantic_core import PydanticCustomError
+from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
 from mbla.deck.suggestions import listed
 from mbla.errors import MOST_FAULTS, Finding
@@ -135,9 +136,34 @@ def built(kind: type[Model]) -> type[Model]:
     return kind
 
 
-def shape(value: Any) -> str:
-    """Which branch of a union a value of the deck belongs to, so that a fault in it is reported once."""
-    return "mapping" if isinstance(value, (dict, Section)) else "list" if isinstance(value, list) else "name"
+@dataclass(frozen=True)
+class ByShape:
+    """Annotation of a union of a single value, a mapping and a list, one of each at most: the shape of a value of the
+    deck decides which it belongs to, so that a fault in it is reported once.
+
+    otherwise : name, mapping or list: what a value of another shape is taken for
+    """
+
+    otherwise: str
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
+        branches = {_shape_of_type(branch): handler.generate_schema(branch) for branch in get_args(source)}
+        return core_schema.tagged_union_schema(
+            branches, discriminator=lambda value: found if (found := _shape(value)) in branches else self.otherwise
+        )
+
+
+def _shape(value: Any) -> str:
+    return "mapping" if isinstance(value, (dict, Section)) else "list" if isinstance(value, (list, tuple)) else "name"
+
+
+def _shape_of_type(annotation: Any) -> str:
+    """Of the values of a type."""
+    if get_origin(annotation) is Annotated:
+        return _shape_of_type(get_args(annotation)[0])
+    if get_origin(annotation) in (list, tuple):
+        return "list"
+    return "mapping" if isinstance(annotation, type) and issubclass(annotation, BaseModel) else "name"
 
 
 # --- what rules share ---------------------------------------------------------------------------------------------

@@ -32,17 +32,10 @@ def unusual_sizes(blocks: Blocks, fixed: BoolArray, units: Units) -> Iterator[No
         if not len(rows):
             continue
         middle = int(rows[np.argsort(sides[rows], kind="stable")[len(rows) // 2]])
-        extents = _extents(blocks, middle)
+        extents = blocks.boxes[1][middle] - blocks.boxes[0][middle]
         long = float(extents.max()) * METRES[units.length]
         if (sides[middle] > LARGEST and long > LONGEST) or sides[middle] < SMALLEST:
             yield Notice("warning", "block-size-unusual", _words(blocks.name(middle), extents, sides[middle], units))
-
-
-def _extents(blocks: Blocks, block: int) -> FloatArray:
-    """Of a block along the axes, (3,)."""
-    vertices = blocks.vertices[blocks.vertex_start[block] : blocks.vertex_start[block + 1]]
-    extents: FloatArray = np.ptp(vertices, axis=0)
-    return extents
 
 
 def _words(name: str, extents: FloatArray, side: float, units: Units) -> str:

@@ -26,7 +26,7 @@ from mbla.model.selectors import BlockSelection, select_blocks
 from mbla.model.solids.blocks import NO_MASSES, Blocks, PointMasses, joined_masses
 from mbla.model.solids.plane import cut, unit
 from mbla.model.solids.polygons import Polygons, polygons_from_loops, triangles
-from mbla.model.solids.ragged import items_of_rows, row_maxima
+from mbla.model.solids.ragged import items_of_rows, row_ranges
 from mbla.model.wording import counted, named
 from mbla.process.late import shapely
 
@@ -230,7 +230,7 @@ def _free_triangles(faces: IntArray, body: FillBody, blocks: Blocks, tolerance: 
     mine, other = shapely.STRtree(shadows).query(plans, predicate="intersects")
     reach = tolerance * blocks.sizes[blocks.block_of_face[faces]]
     corners = blocks.vertices[blocks.loops, 2]
-    low, high = -row_maxima(-corners, blocks.loop_start), row_maxima(corners, blocks.loop_start)
+    low, high = row_ranges(corners, blocks.loop_start)
     near = high[over[other]] >= low[faces[mine]] - reach[mine]
     mine, other = mine[near], other[near]
     common = shapely.intersection(plans[mine], shadows[other])

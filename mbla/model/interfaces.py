@@ -176,7 +176,7 @@ def _lies_on(points: FloatArray, normal: FloatArray, body: int, bodies: _Bodies,
     facets = blocks.facet_of_face[faces]
     covered = np.zeros((len(faces), len(points)), dtype=bool)
     for row, face in enumerate(faces):
-        outline = blocks.vertices[blocks.loops[blocks.loop_start[face] : blocks.loop_start[face + 1]]]
+        outline = blocks.vertices[blocks.loop(face)]
         near = np.abs((points[:, None] - outline) @ normal).min(axis=1) <= reach
         covered[row] = near & shapely.dwithin(shapely.polygons(outline @ frame), shapely.points(points @ frame), reach)
     return any(covered[facets == facet].any(axis=0).all() for facet in np.unique(facets))

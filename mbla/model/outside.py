@@ -31,22 +31,21 @@ class Outside:
 
 def outside(point: FloatArray, block: int, blocks: Blocks, units: Units) -> Outside | None:
     """A point, (3,), held against the bounding box of a block; None inside it and as good as inside."""
-    vertices = blocks.vertices[blocks.vertex_start[block] : blocks.vertex_start[block + 1]]
-    off, length = _distance(point, vertices), units.length
-    if off <= OUTSIDE * float(np.linalg.norm(np.ptp(vertices, axis=0))):
+    own, every = (blocks.boxes[0][block], blocks.boxes[1][block]), (blocks.boxes[0].min(0), blocks.boxes[1].max(0))
+    off, length = _distance(point, *own), units.length
+    if off <= OUTSIDE * float(np.linalg.norm(own[1] - own[0])):
         return None
-    size = float(np.linalg.norm(np.ptp(blocks.vertices, axis=0)))
+    size = float(np.linalg.norm(every[1] - every[0]))
     if off <= FAR * size:
         return Outside(f"{off:.4g} {length} outside that block", False)
     words = f"{off:.4g} {length} outside that block, of a structure that is {size:.4g} {length} large"
     for unit in METRES:
         there = point * (METRES[unit] / METRES[length])
-        if _distance(there, blocks.vertices) <= NEAR * size:
+        if _distance(there, *every) <= NEAR * size:
             return Outside(f"{words}; in {unit} it would be at {vector(there)} {length}", True)
     return Outside(words, True)
 
 
-def _distance(point: FloatArray, vertices: FloatArray) -> float:
-    """Distance of a point, (3,), from the bounding box of vertices, (n, 3); 0 inside."""
-    least, greatest = vertices.min(axis=0), vertices.max(axis=0)
+def _distance(point: FloatArray, least: FloatArray, greatest: FloatArray) -> float:
+    """Distance of a point from a box, (3,) each; 0 inside."""
     return float(np.linalg.norm(np.maximum(0.0, np.maximum(least - point, point - greatest))))

@@ -5,18 +5,15 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 from typing import Annotated, Literal, TypeAlias
 
-from pydantic import Discriminator, Field, Tag
+from pydantic import Field
 
 from mbla.deck.quantities import Count, Line, Quantity, Switch, Time
-from mbla.deck.section import Section, rule
+from mbla.deck.section import ByShape, Section, rule
 from mbla.deck.sections.accuracy import Accuracy, set_by_accuracy
 from mbla.deck.suggestions import listed
 from mbla.errors import Finding
 
-Sensitivity: TypeAlias = Annotated[
-    Annotated[Switch, Tag("switch")] | Annotated[list[Line], Field(min_length=1), Tag("list")],
-    Discriminator(lambda value: "list" if isinstance(value, (list, tuple)) else "switch"),
-]
+Sensitivity: TypeAlias = Annotated[Switch | Annotated[list[Line], Field(min_length=1)], ByShape("name")]
 """All usual parameters or none, or those of some key paths."""
 
 

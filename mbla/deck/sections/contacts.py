@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Annotated, Literal, TypeAlias
 
-from pydantic import Discriminator, Field, Tag
+from pydantic import Field
 
 from mbla.deck.quantities import Box, Direction, Integer, Name, PositiveLength, Quantity
-from mbla.deck.section import Section, given, rule, shape
+from mbla.deck.section import ByShape, Section, given, rule
 from mbla.deck.sections.selectors import Selector
 from mbla.deck.suggestions import listed
 from mbla.errors import Finding
@@ -23,10 +23,7 @@ class AboutNormal(Section):
     )
 
 
-Orientation: TypeAlias = Annotated[
-    Annotated[Literal["bed", "head"], Tag("name")] | Annotated[AboutNormal, Tag("mapping")],
-    Discriminator(lambda value: "mapping" if shape(value) == "mapping" else "name"),
-]
+Orientation: TypeAlias = Annotated[Literal["bed", "head"] | AboutNormal, ByShape("name")]
 
 
 class ContactOverride(Section):

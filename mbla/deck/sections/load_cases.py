@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Annotated, TypeAlias
 
-from pydantic import ConfigDict, Discriminator, Field, Tag
+from pydantic import ConfigDict, Field
 
 from mbla.deck.load_key import live_only
 from mbla.deck.quantities import Direction, Integer, Number, PositiveLength
-from mbla.deck.section import Section, exactly_one_of, given, one_of, rule, shape
+from mbla.deck.section import ByShape, Section, exactly_one_of, given, one_of, rule
 from mbla.deck.sections.assessment import AssessmentSection
 from mbla.deck.sections.loads import Load
 from mbla.deck.sections.objective import ObjectiveSection
@@ -48,9 +48,7 @@ class SettlementSection(Section):
 
 
 Settlements: TypeAlias = Annotated[
-    Annotated[SettlementSection, Tag("mapping")]
-    | Annotated[Annotated[list[SettlementSection], Field(min_length=1, max_length=1000)], Tag("list")],
-    Discriminator(lambda value: "list" if shape(value) == "list" else "mapping"),
+    SettlementSection | Annotated[list[SettlementSection], Field(min_length=1, max_length=1000)], ByShape("mapping")
 ]
 """One settling support, or several in proportion."""
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import Annotated, TypeAlias
 
-from pydantic import Discriminator, Field, Tag
+from pydantic import Field
 
 from mbla.deck.quantities import Angle, Direction, Integer, Point, PositiveNumber
-from mbla.deck.section import Section, exactly_one_of, shape
+from mbla.deck.section import ByShape, Section, exactly_one_of
 
 
 class Rotation(Section):
@@ -35,10 +35,7 @@ class TransformStep(Section):
     mirror: Reflection | None = Field(None, description="reflection in a plane")
 
 
-Transform: TypeAlias = Annotated[
-    Annotated[TransformStep, Tag("mapping")] | Annotated[list[TransformStep], Tag("list")],
-    Discriminator(lambda value: "mapping" if shape(value) == "mapping" else "list"),
-]
+Transform: TypeAlias = Annotated[TransformStep | list[TransformStep], ByShape("list")]
 
 
 @exactly_one_of("translate", "rotate")
@@ -50,7 +47,4 @@ class Repetition(Section):
     rotate: Rotation | None = Field(None, description="rotation from each copy to the next")
 
 
-Repeat: TypeAlias = Annotated[
-    Annotated[Repetition, Tag("mapping")] | Annotated[list[Repetition], Tag("list")],
-    Discriminator(lambda value: "mapping" if shape(value) == "mapping" else "list"),
-]
+Repeat: TypeAlias = Annotated[Repetition | list[Repetition], ByShape("list")]

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Annotated, TypeAlias
 
-from pydantic import ConfigDict, Discriminator, Field, Tag
+from pydantic import ConfigDict, Field
 
 from mbla.deck.kinds import in_order
 from mbla.deck.positions import COPY, SHARED
 from mbla.deck.quantities import Box, Index, Name, Position
-from mbla.deck.section import Section, given, rule, shape, with_keys
+from mbla.deck.section import ByShape, Section, given, rule, with_keys
 from mbla.deck.sections.blocks import ITEM_KINDS
 from mbla.deck.suggestions import listed
 from mbla.errors import Finding
@@ -25,10 +25,7 @@ GROUND = "ground"
 """name that stands for ground planes in `contacts.overrides`, for what does not move in `ties`"""
 ONE_OF = ("group", "box")
 """keys of a selector of which it has at least one"""
-PositionRange: TypeAlias = Annotated[
-    Annotated[Position, Tag("number")] | Annotated[tuple[Position, Position], Tag("list")],
-    Discriminator(lambda value: "list" if isinstance(value, (list, tuple)) else "number"),
-]
+PositionRange: TypeAlias = Annotated[Position | tuple[Position, Position], ByShape("name")]
 
 
 @with_keys(
@@ -60,16 +57,8 @@ class SelectorTerm(Section):
         return asked
 
 
-Term: TypeAlias = Annotated[
-    Annotated[Name, Tag("name")] | Annotated[SelectorTerm, Tag("mapping")],
-    Discriminator(lambda value: "mapping" if shape(value) == "mapping" else "name"),
-]
-Selector: TypeAlias = Annotated[
-    Annotated[Name, Tag("name")]
-    | Annotated[SelectorTerm, Tag("mapping")]
-    | Annotated[list[Term], Field(min_length=1), Tag("list")],
-    Discriminator(shape),
-]
+Term: TypeAlias = Annotated[Name | SelectorTerm, ByShape("name")]
+Selector: TypeAlias = Annotated[Name | SelectorTerm | Annotated[list[Term], Field(min_length=1)], ByShape("name")]
 
 
 @rule(SelectorTerm)

@@ -11,28 +11,18 @@ import math
 from collections.abc import Iterator
 from typing import Annotated, Literal, TypeAlias
 
-from pydantic import Discriminator, Field, Tag
+from pydantic import Field
 
 from mbla.deck.positions import COURSE, LEAF, RING, SPAN, UNIT, VOUSSOIR
 from mbla.deck.quantities import Count, PositiveLength, SideAngle
-from mbla.deck.section import ROUNDING, Section, given, rule
+from mbla.deck.section import ROUNDING, ByShape, Section, given, rule
 from mbla.errors import Finding
 from mbla.model.blocks.curves.shape_keys import CurveShape, range_of_rise, shape_keys
 from mbla.model.blocks.generated import Generated, ItemContext
 from mbla.model.blocks.item import AnyItem, ItemKind, register_item
 
-
-def _number_or_list(value: object) -> str:
-    return "list" if isinstance(value, (list, tuple)) else "number"
-
-
-Rises: TypeAlias = Annotated[
-    Annotated[PositiveLength, Tag("number")] | Annotated[list[PositiveLength], Tag("list")],
-    Discriminator(_number_or_list),
-]
-Counts: TypeAlias = Annotated[
-    Annotated[Count, Tag("number")] | Annotated[list[Count], Tag("list")], Discriminator(_number_or_list)
-]
+Rises: TypeAlias = Annotated[PositiveLength | list[PositiveLength], ByShape("name")]
+Counts: TypeAlias = Annotated[Count | list[Count], ByShape("name")]
 
 
 class BridgePiers(Section):

@@ -143,8 +143,7 @@ def _radii(item: ColumnItem, joints: FloatArray) -> FloatArray:
     """Radii at the joints, (n_drums + 1,)."""
     top = item.radius if item.top_radius is None else item.top_radius
     share = (joints - joints[0]) / (joints[-1] - joints[0])
-    radii: FloatArray = item.radius + (top - item.radius) * share + 4.0 * item.entasis * share * (1.0 - share)
-    return radii
+    return np.asarray(item.radius + (top - item.radius) * share + 4.0 * item.entasis * share * (1.0 - share))
 
 
 def _polygons(outline: FloatArray, radii: FloatArray, heights: FloatArray) -> FloatArray:

@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 import shapely
 
-from mbla.arrays import BoolArray, FloatArray, IntArray
+from mbla.arrays import BoolArray, FloatArray
 from mbla.errors import Refusal
 from mbla.model.geometry.repeated_faces import face_codes
 from mbla.model.geometry.welding import take_faces, weld
@@ -17,7 +17,7 @@ from mbla.model.solids.facets import can_be_split, find_facets, split_faces
 from mbla.model.solids.measures import face_geometry, faces_to_turn, find_edges, volumes_and_centroids
 from mbla.model.solids.plane import plane_axes, unit
 from mbla.model.solids.polyhedra import Polyhedra, turn_faces
-from mbla.model.solids.ragged import row_maxima
+from mbla.model.solids.ragged import row_ranges
 
 FLAT = 0.02
 """greatest thickness of a sheet, over the diagonal of its box, that counts as one flat face"""
@@ -43,7 +43,7 @@ def sheets(polyhedra: Polyhedra) -> tuple[BoolArray, BoolArray]:
     lone = np.unique(welded.block_of_face[welded.face_of_corner[welded.faces_at_edge == 1]])
     start = polyhedra.vertex_start
     local = polyhedra.local_vertices
-    diagonals = np.linalg.norm(row_maxima(local, start) + row_maxima(-local, start), axis=1)
+    diagonals = np.linalg.norm(np.subtract(*row_ranges(local, start)), axis=1)
     volumes = volumes_and_centroids(polyhedra)[0]
     found = np.zeros(count, dtype=bool)
     found[lone] = True
@@ -99,7 +99,7 @@ def flat_outlines(sheet: Polyhedra, tolerance: float) -> list[FloatArray]:
 def _united(sheet: Polyhedra, chosen: BoolArray) -> list[FloatArray]:
     """Outline of faces in one plane; each by itself where together they have a hole."""
     rows = np.flatnonzero(chosen)
-    loops = [sheet.vertices[_loop(sheet, face)] for face in rows.tolist()]
+    loops = [sheet.vertices[sheet.loop(face)] for face in rows.tolist()]
     if len(loops) > 1:
         faces = face_geometry(sheet)
         normal = unit((faces.areas[rows, None] * faces.normals[rows]).sum(axis=0))
@@ -112,10 +112,6 @@ def _united(sheet: Polyhedra, chosen: BoolArray) -> list[FloatArray]:
         if one and abs(union.area - area) <= LOST * area:
             return [shapely.get_coordinates(union.exterior)[:-1] @ axes + middle]
     return [flattened(loop) for loop in loops]
-
-
-def _loop(sheet: Polyhedra, face: int) -> IntArray:
-    return sheet.loops[sheet.loop_start[face] : sheet.loop_start[face + 1]]
 
 
 def flattened(corners: FloatArray) -> FloatArray:

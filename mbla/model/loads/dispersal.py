@@ -32,7 +32,7 @@ from mbla.model.fill import FillBody
 from mbla.model.solids.blocks import Blocks
 from mbla.model.solids.plane import cut, signed_areas
 from mbla.model.solids.polygons import Polygons, polygons_from_loops, triangles
-from mbla.model.solids.ragged import row_maxima
+from mbla.model.solids.ragged import row_maxima, row_ranges
 from mbla.process.late import shapely
 
 HAIR = 1e-9
@@ -147,7 +147,8 @@ def _met(
     reach = most * row_maxima(corners[:, 2], start)
     near = reach > 0.0
     for axis, side in ((0, reach), (1, width / 2 if width > 0.0 else reach)):
-        near &= (row_maxima(corners[:, axis], start) >= -side) & (row_maxima(-corners[:, axis], start) >= -side)
+        low, high = row_ranges(corners[:, axis], start)
+        near &= (high >= -side) & (low <= side)
     faces = np.flatnonzero(near)
     counts = np.diff(start)[faces]
     columns = np.minimum(np.arange(counts.max(initial=1)), counts[:, None] - 1)

@@ -16,7 +16,7 @@ from mbla.model.model import Ground
 from mbla.model.solids.blocks import Blocks
 from mbla.model.solids.plane import meeting_boxes, plane_axes
 from mbla.model.solids.polygons import Polygons, polygons_from_loops, triangles
-from mbla.model.solids.ragged import row_maxima
+from mbla.model.solids.ragged import row_maxima, row_ranges
 from mbla.process.late import shapely
 
 FACING = 0.99
@@ -106,7 +106,7 @@ def _on_ground(faces: IntArray, blocks: Blocks, ground: Ground, tolerance: float
 def _facing_pairs(faces: IntArray, blocks: Blocks, tolerance: float, overlap: float) -> tuple[IntArray, IntArray]:
     """(position in ``faces``, face of another block that may lie against it)."""
     corners = blocks.vertices[blocks.loops]
-    low, high = -row_maxima(-corners, blocks.loop_start), row_maxima(corners, blocks.loop_start)
+    low, high = row_ranges(corners, blocks.loop_start)
     reach = tolerance * blocks.sizes[blocks.block_of_face]
     margin = reach[faces, None]
     mine, others = meeting_boxes(low[faces] - margin, high[faces] + margin, low, high)

@@ -17,7 +17,7 @@ from mbla.arrays import BoolArray, FloatArray, IntArray, starts, summed
 from mbla.deck.positions import NONE
 from mbla.deck.sections.selectors import POSITIONS
 from mbla.model.solids.polyhedra import Polyhedra
-from mbla.model.solids.ragged import items_of_rows, row_maxima
+from mbla.model.solids.ragged import items_of_rows, row_ranges
 
 
 @dataclass(frozen=True)
@@ -69,7 +69,7 @@ class Blocks(Polyhedra):
     @cached_property
     def boxes(self) -> tuple[FloatArray, FloatArray]:
         """Least and greatest coordinates of each block, (n_blocks, 3) m."""
-        return -row_maxima(-self.vertices, self.vertex_start), row_maxima(self.vertices, self.vertex_start)
+        return row_ranges(self.vertices, self.vertex_start)
 
     def corners_of(self, faces: IntArray) -> tuple[FloatArray, IntArray]:
         """Corners of faces (n,), one after the other, (m, 3), and where those of each start, (n + 1,)."""
@@ -101,8 +101,7 @@ class BlockLabels:
 
     def position(self, name: str) -> IntArray:
         """(n,) of the positions of that name."""
-        column: IntArray = self.positions[:, POSITIONS.index(name)]
-        return column
+        return np.asarray(self.positions[:, POSITIONS.index(name)])
 
 
 def labels_of(

@@ -33,16 +33,14 @@ def convex_loops(points: FloatArray, loop_start: IntArray) -> BoolArray:
     left = np.logical_and.reduceat(cross >= -1e-6 * size, first)
     right = np.logical_and.reduceat(cross <= 1e-6 * size, first)
     winding = np.abs(np.add.reduceat(turn, first))
-    once: BoolArray = (left | right) & (winding < 3 * np.pi)
-    return once
+    return np.asarray((left | right) & (winding < 3 * np.pi))
 
 
 def signed_areas(points: FloatArray, loop_start: IntArray) -> FloatArray:
     """Area within each loop, counter-clockwise positive, (n_loops,); arguments as of :func:`convex_loops`."""
     following = next_item(loop_start)
     cross = points[:, 0] * points[following, 1] - points[:, 1] * points[following, 0]
-    areas: FloatArray = np.add.reduceat(cross, loop_start[:-1]) / 2
-    return areas
+    return np.asarray(np.add.reduceat(cross, loop_start[:-1]) / 2)
 
 
 # Corners handled together: bounds memory to some 200 MB.

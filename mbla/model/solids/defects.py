@@ -21,7 +21,7 @@ from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.errors import Message, Notice
 from mbla.model.solids.measures import Edges, FaceGeometry
 from mbla.model.solids.polyhedra import Polyhedra
-from mbla.model.solids.ragged import row_maxima, row_sums
+from mbla.model.solids.ragged import row_maxima, row_ranges, row_sums
 from mbla.model.wording import counted
 
 LARGEST_COORDINATE = 1e50
@@ -73,7 +73,7 @@ def find_extents(polyhedra: Polyhedra) -> Extents:
     """Bounding-box diagonals and rounding errors."""
     start = polyhedra.vertex_start
     local = polyhedra.local_vertices
-    spans = row_maxima(local, start) + row_maxima(-local, start)
+    spans = -np.subtract(*row_ranges(local, start))
     greatest = row_maxima(np.abs(polyhedra.vertices).max(axis=1), start)
     return Extents(np.linalg.norm(spans, axis=1), np.finfo(float).eps * greatest)
 
@@ -93,7 +93,7 @@ def coordinate_defects(polyhedra: Polyhedra) -> Iterator[Defect]:
     if not len(bad):
         return
     local = np.where(bad[:, None], 0.0, polyhedra.vertices)
-    spans = (row_maxima(local, start) + row_maxima(-local, start)).max(axis=1)
+    spans = np.max(-np.subtract(*row_ranges(local, start)), axis=1)
     spans[polyhedra.block_of_vertex[bad]] = np.inf
     for block in np.flatnonzero((spans > 0) & (spans < SMALLEST_BLOCK)).tolist():
         words = (
@@ -167,7 +167,7 @@ def _face_twice(polyhedra: Polyhedra, block: int) -> str:
     """The first two faces of a block that have the same corners, in words; empty where there are none."""
     first: dict[frozenset[int], int] = {}
     for number, face in enumerate(range(*polyhedra.face_start[block : block + 2].tolist())):
-        corners = frozenset(polyhedra.loops[polyhedra.loop_start[face] : polyhedra.loop_start[face + 1]].tolist())
+        corners = frozenset(polyhedra.loop(face).tolist())
         if first.setdefault(corners, number) != number:
             return f"; faces {first[corners]} and {number} have the same corners: is one listed twice?"
     return ""

@@ -130,7 +130,8 @@ def can_be_split(polyhedra: Polyhedra, faces: FaceGeometry, chosen: IntArray) ->
     """Whether faces are convex as seen along their normals: then any fan of triangles is as good, (n_chosen,)."""
     convex = np.zeros(len(chosen), dtype=bool)
     for number, face in enumerate(chosen.tolist()):
-        arms = np.diff(_corners(polyhedra, face), axis=0, append=_corners(polyhedra, face)[:1])
+        corners = polyhedra.local_vertices[polyhedra.loop(face)]
+        arms = np.diff(corners, axis=0, append=corners[:1])
         turns = np.cross(arms, np.roll(arms, -1, axis=0)) @ faces.normals[face]
         convex[number] = (turns > 0).all()
     return convex
@@ -150,7 +151,7 @@ def split_faces(
     polyhedra, hub = _with_hubs(polyhedra, faces, hubs)
     of_face = dict(zip(hubs.tolist(), hub.tolist(), strict=True))
     fans = [
-        _fan(polyhedra, face, first) if first >= 0 else _star(polyhedra, face, of_face[face])
+        _fan(polyhedra.loop(face), first) if first >= 0 else _star(polyhedra.loop(face), of_face[face])
         for face, first in zip(chosen.tolist(), about.tolist(), strict=True)
     ]
     counts = np.array([len(fan) for fan in fans], dtype=np.int64)
@@ -213,19 +214,12 @@ def _with_hubs(polyhedra: Polyhedra, faces: FaceGeometry, chosen: IntArray) -> t
     return extended, hub
 
 
-def _star(polyhedra: Polyhedra, face: int, hub: int) -> IntArray:
-    """Triangles from each edge of a face to its centre, (n, 3) rows of vertices."""
-    loop = polyhedra.loops[polyhedra.loop_start[face] : polyhedra.loop_start[face + 1]]
+def _star(loop: IntArray, hub: int) -> IntArray:
+    """Triangles from each edge of a face, corners (n,), to its centre, (n, 3) rows of vertices."""
     return np.stack([loop, np.roll(loop, -1), np.full(len(loop), hub)], axis=1)
 
 
-def _corners(polyhedra: Polyhedra, face: int) -> FloatArray:
-    """Corners of a face about the origin of its polyhedron, (n, 3)."""
-    loop = polyhedra.loops[polyhedra.loop_start[face] : polyhedra.loop_start[face + 1]]
-    return np.asarray(polyhedra.local_vertices[loop])
-
-
-def _fan(polyhedra: Polyhedra, face: int, about: int) -> IntArray:
-    """Triangles of a convex face about one of its corners, (n - 2, 3) rows of vertices."""
-    fan = np.roll(polyhedra.loops[polyhedra.loop_start[face] : polyhedra.loop_start[face + 1]], -about)
+def _fan(loop: IntArray, about: int) -> IntArray:
+    """Triangles of a convex face, corners (n,), about one of them, (n - 2, 3) rows of vertices."""
+    fan = np.roll(loop, -about)
     return np.stack([np.broadcast_to(fan[0], len(fan) - 2), fan[1:-1], fan[2:]], axis=1)

@@ -17,7 +17,7 @@ from mbla.model.solids.convex import convex_loops
 from mbla.model.solids.measures import face_geometry
 from mbla.model.solids.plane import meeting_boxes, plane_axes
 from mbla.model.solids.polygons import Polygons, intersect, polygons_from_loops
-from mbla.model.solids.ragged import row_maxima
+from mbla.model.solids.ragged import row_ranges
 
 OPPOSITE = float(np.cos(np.radians(20.0)))
 """cosine of the greatest angle between two facets that face each other: a joint that is drawn as a wedge"""
@@ -68,7 +68,7 @@ def facing_pairs(blocks: Blocks, planes: FacetPlanes, reach: float, tolerance: f
     tolerance : relative to block size, by which they may overlap, and of the width of what they share
     """
     corners = blocks.vertices[blocks.loops]
-    low, high = -row_maxima(-corners, blocks.loop_start), row_maxima(corners, blocks.loop_start)
+    low, high = row_ranges(corners, blocks.loop_start)
     room = reach * (0.5 + 1e-6)  # a gap that is the reach must not be lost by rounding
     one, other = meeting_boxes(low - room, high + room, low - room, high + room)
     facet, owner = blocks.facet_of_face, blocks.block_of_face

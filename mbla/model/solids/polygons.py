@@ -150,8 +150,7 @@ def boxes_overlap(first: Polygons, second: Polygons, margin: float) -> BoolArray
     """True where the bounding rectangles of a pair share more than ``margin`` along both axes, (n,)."""
     a, b = shapely.bounds(first), shapely.bounds(second)
     shared = np.minimum(a[:, 2:], b[:, 2:]) - np.maximum(a[:, :2], b[:, :2])
-    wide: BoolArray = (shared > margin).all(axis=1)
-    return wide
+    return np.asarray((shared > margin).all(axis=1))
 
 
 def connected_parts(shapes: Polygons) -> tuple[Polygons, IntArray]:
@@ -172,8 +171,7 @@ def widths(polygons: Polygons) -> FloatArray:
     area = shapely.area(polygons)
     half = shapely.length(polygons) / 2
     root = np.sqrt(np.maximum(half**2 - 4 * area, 0.0))
-    width: FloatArray = 2 * area / np.where(half + root > 0, half + root, 1.0)
-    return width
+    return np.asarray(2 * area / np.where(half + root > 0, half + root, 1.0))
 
 
 def rings(polygons: Polygons) -> tuple[FloatArray, IntArray, IntArray]:

@@ -56,6 +56,10 @@ class Polyhedra:
         """(n_corners,)."""
         return row_of_item(self.loop_start)
 
+    def loop(self, face: int) -> IntArray:
+        """Rows of ``vertices`` at the corners of a face, (n,)."""
+        return self.loops[self.loop_start[face] : self.loop_start[face + 1]]
+
     @cached_property
     def next_loops(self) -> IntArray:
         """Row of ``vertices`` at the next corner of the same face, (n_corners,)."""

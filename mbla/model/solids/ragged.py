@@ -56,6 +56,11 @@ def row_maxima(values: FloatArray, start: IntArray) -> FloatArray:
     return np.maximum.reduceat(values, start[:-1], axis=0)
 
 
+def row_ranges(values: FloatArray, start: IntArray) -> tuple[FloatArray, FloatArray]:
+    """Least and greatest items of each row, (n_rows, ...) each, along the first axis; rows must not be empty."""
+    return -row_maxima(-values, start), row_maxima(values, start)
+
+
 def chunks(counts: IntArray, limit: int) -> list[slice]:
     """Slices of consecutive rows that hold at most ``limit`` items each, or a single longer row.
 

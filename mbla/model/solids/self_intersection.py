@@ -18,7 +18,7 @@ from mbla.model.solids.defects import Defect, Extents
 from mbla.model.solids.measures import Edges, FaceGeometry
 from mbla.model.solids.plane import meeting_boxes, plane_axes
 from mbla.model.solids.polyhedra import Polyhedra
-from mbla.model.solids.ragged import chunks, items_of_rows, row_maxima
+from mbla.model.solids.ragged import chunks, items_of_rows, row_ranges
 
 AT_ONCE = 500_000
 """edge-face pairs held in memory together"""
@@ -58,10 +58,7 @@ def _near_pairs(polyhedra: Polyhedra, edges: Edges, extents: Extents) -> tuple[I
     places[:, 0] += 3.0 * of_vertex
     ends, corners = places[edges.ends], places[polyhedra.loops]
     start = polyhedra.loop_start
-    edge, face = meeting_boxes(
-        ends.min(axis=1) - MARGIN, ends.max(axis=1) + MARGIN, -row_maxima(-corners, start), row_maxima(corners, start)
-    )
-    return edge, face
+    return meeting_boxes(ends.min(axis=1) - MARGIN, ends.max(axis=1) + MARGIN, *row_ranges(corners, start))
 
 
 def _edge_meets_face(

@@ -11,8 +11,7 @@ from mbla.model.solids.polyhedra import Polyhedra
 
 def face_corners(polyhedra: Polyhedra, face: int) -> FloatArray:
     """Corners of a face, (n, 3)."""
-    loop = polyhedra.loops[polyhedra.loop_start[face] : polyhedra.loop_start[face + 1]]
-    return np.asarray(polyhedra.vertices[loop])
+    return np.asarray(polyhedra.vertices[polyhedra.loop(face)])
 
 
 def shared_faces(polyhedra: Polyhedra, faces: FaceGeometry, chosen: IntArray, reach: FloatArray) -> IntArray:

@@ -40,9 +40,9 @@ def _joined(
     number = np.where(on_plane, np.arange(count), count + np.cumsum(~on_plane) - 1)  # of images: shared on the plane
     faces = []
     for face in range(own.face_start[block], own.face_start[block + 1]):
-        loop = own.loops[own.loop_start[face] : own.loop_start[face + 1]] - own.vertex_start[block]
+        loop = own.loop(face) - own.vertex_start[block]
         if on_plane[loop].all():
             continue
-        mirrored = image.loops[image.loop_start[face] : image.loop_start[face + 1]] - own.vertex_start[block]
+        mirrored = image.loop(face) - own.vertex_start[block]
         faces += [loop.tolist(), number[mirrored].tolist()]
     return np.vstack([vertices, image.vertices[rows][~on_plane]]), faces

@@ -9,11 +9,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Annotated, Any, Literal, TypeAlias
 
-from pydantic import BeforeValidator, Discriminator, Field, Tag
+from pydantic import BeforeValidator, Field
 
 from mbla.deck.content import no_boolean
 from mbla.deck.quantities import NAME_PATTERN, Integer, Line, Name, Number, PositiveNumber, Quantity, Switch, Time
-from mbla.deck.section import Section, shape
+from mbla.deck.section import ByShape, Section
 from mbla.errors import KeyPath
 
 MAX_POINTS = 1_000_000
@@ -37,10 +37,7 @@ Points: TypeAlias = Annotated[int, Integer(ge=1, le=MAX_POINTS)]
 Seed: TypeAlias = Annotated[int, Integer(ge=0, le=2**32 - 1)]
 ParameterName: TypeAlias = Annotated[str, Field(pattern=NAME_PATTERN, max_length=200)]
 """also a key path, which may be long"""
-KeyPaths: TypeAlias = Annotated[
-    Annotated[str, Tag("name")] | Annotated[list[str], Field(min_length=1), Tag("list")],
-    Discriminator(lambda value: "list" if shape(value) == "list" else "name"),
-]
+KeyPaths: TypeAlias = Annotated[str | Annotated[list[str], Field(min_length=1)], ByShape("name")]
 
 
 class LinearRange(Section):

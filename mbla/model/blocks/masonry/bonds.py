@@ -37,8 +37,7 @@ class Pattern:
 
     def through_at(self, places: FloatArray) -> BoolArray:
         """Whether the units at places (n,) [length] go through all leaves, (n,)."""
-        found: BoolArray = self.through[np.searchsorted(self.joints, places)]
-        return found
+        return np.asarray(self.through[np.searchsorted(self.joints, places)])
 
 
 def shifted(item: Masonry, course: int, swapped: bool) -> bool:
@@ -93,8 +92,7 @@ def headers_by_number(item: Masonry, course: int, count: int) -> BoolArray:
     if headers is None or course % headers.every != headers.every - 1:
         return np.full(count, item.leaves == 1)
     stagger = (course // headers.every) % 2 * (headers.spacing // 2)
-    through: BoolArray = (np.arange(count) + stagger) % headers.spacing == 0
-    return through
+    return np.asarray((np.arange(count) + stagger) % headers.spacing == 0)
 
 
 def _flemish(item: Masonry, length: float, second: bool, corner: bool) -> Pattern:

@@ -196,5 +196,4 @@ class Leg:
     def in_plan(self, s: FloatArray, r: FloatArray) -> FloatArray:
         """Places in the wall's plan as x and y, (..., 2)."""
         left = np.array([-self.along[1], self.along[0]])
-        places: FloatArray = self.origin + s[..., None] * self.along + r[..., None] * left
-        return places
+        return np.asarray(self.origin + s[..., None] * self.along + r[..., None] * left)

@@ -49,8 +49,7 @@ class Line:
     @property
     def origin(self) -> FloatArray:
         """Corner (2,) of the wall at its start and right face."""
-        place: FloatArray = self.start - self.before * self.along + self.right * self.left
-        return place
+        return np.asarray(self.start - self.before * self.along + self.right * self.left)
 
     @property
     def whole_length(self) -> float:
