@@ -13,7 +13,7 @@ from mbla.deck.section import Section, with_keys
 
 
 @dataclass(frozen=True)
-class Kind:
+class ChoiceKind:
     """A kind of thing.
 
     name    : key of the deck that it goes by
@@ -26,7 +26,7 @@ class Kind:
     after: str = field(default="", kw_only=True)
 
 
-K = TypeVar("K", bound=Kind)
+K = TypeVar("K", bound=ChoiceKind)
 C = TypeVar("C", bound="Choice")
 
 
@@ -71,6 +71,6 @@ def in_order(kinds: Mapping[str, K]) -> list[K]:
     return found
 
 
-def keys_of(kinds: Mapping[str, Kind]) -> Callable[[type[C]], type[C]]:
+def keys_of(kinds: Mapping[str, ChoiceKind]) -> Callable[[type[C]], type[C]]:
     """A section with a key for each of some kinds."""
     return with_keys({kind.name: (kind.section | None, None) for kind in in_order(kinds)})

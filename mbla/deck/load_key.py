@@ -10,11 +10,11 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from mbla.deck.kinds import Kind, in_order, register
+from mbla.deck.kinds import ChoiceKind, in_order, register
 
 
 @dataclass(frozen=True, kw_only=True)
-class LoadKey(Kind):
+class LoadKey(ChoiceKind):
     """A kind of load: what stands at its key, and what goes with it.
 
     section     : type of what stands at the key, which may be a vector or a name

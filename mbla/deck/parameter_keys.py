@@ -12,7 +12,7 @@ from pydantic.fields import FieldInfo
 
 from mbla.deck.content import DeckContent
 from mbla.deck.fields import allowed_keys, annotations_at, branches, sections_at, takes_names
-from mbla.deck.quantities import Quantity
+from mbla.deck.quantities import RealNumber
 from mbla.deck.suggestions import listed, unknown
 from mbla.deck.text.overrides import RefusedError, item_index, next_key
 from mbla.deck.text.tree import Tree, key_text, shorten
@@ -136,15 +136,15 @@ def unit_of(paths: Sequence[KeyPath], units: Units) -> str:
     return found.pop() if len(found) == 1 else ""
 
 
-def _quantities(annotation: Any) -> Iterator[Quantity]:
+def _quantities(annotation: Any) -> Iterator[RealNumber]:
     """Quantities of an annotation and of the items of a list."""
     if get_origin(annotation) is Annotated:
         below, *metadata = get_args(annotation)
         for item in metadata:
-            if isinstance(item, Quantity):
+            if isinstance(item, RealNumber):
                 yield item
             elif isinstance(item, FieldInfo):
-                yield from (each for each in item.metadata if isinstance(each, Quantity))
+                yield from (each for each in item.metadata if isinstance(each, RealNumber))
         yield from _quantities(below)
     elif get_origin(annotation) in (Union, UnionType, list, tuple):
         for each in get_args(annotation):

@@ -52,7 +52,7 @@ STRONGEST = 1e100
 
 
 @dataclass(frozen=True)
-class Quantity:
+class RealNumber:
     """Annotation of a number field: its dimension (a key of ``mbla.deck.units.DIMENSIONS``) and its bounds."""
 
     dimension: str
@@ -90,7 +90,7 @@ class Integer:
         return {"anyOf": [{"type": "integer"} | bounds, {"type": "string", "pattern": EXPRESSION_PATTERN}]}
 
 
-def _bounds(quantity: Quantity) -> dict[str, float]:
+def _bounds(quantity: RealNumber) -> dict[str, float]:
     names = {"gt": "exclusiveMinimum", "ge": "minimum", "lt": "exclusiveMaximum", "le": "maximum"}
     bounds = {name: getattr(quantity, key) for key, name in names.items()}
     return {name: value for name, value in bounds.items() if value is not None}
@@ -143,35 +143,35 @@ def corners_in_order(low: Sequence[float], high: Sequence[float], *path: str | i
             yield Finding("out-of-bounds", f"must be > {least:g}, the {'xyz'[axis]} of the other corner", *path, axis)
 
 
-Number: TypeAlias = Annotated[float, Quantity("number")]
-NonNegativeNumber: TypeAlias = Annotated[float, Quantity("number", ge=0)]
-PositiveNumber: TypeAlias = Annotated[float, Quantity("number", gt=0)]
-Share: TypeAlias = Annotated[float, Quantity("number", gt=0, le=1)]
-Length: TypeAlias = Annotated[float, Quantity("length")]
-PositiveLength: TypeAlias = Annotated[float, Quantity("length", gt=0)]
-NonNegativeLength: TypeAlias = Annotated[float, Quantity("length", ge=0)]
-Force: TypeAlias = Annotated[float, Quantity("force")]
-PositiveForce: TypeAlias = Annotated[float, Quantity("force", gt=0)]
-PositiveArea: TypeAlias = Annotated[float, Quantity("area", gt=0)]
-Moment: TypeAlias = Annotated[float, Quantity("moment")]
-ForcePerLength: TypeAlias = Annotated[float, Quantity("force_per_length")]
-PositiveMass: TypeAlias = Annotated[float, Quantity("mass", gt=0)]
-Stress: TypeAlias = Annotated[float, Quantity("stress")]
-UnitWeight: TypeAlias = Annotated[float, Quantity("unit_weight")]
-NonNegativeStress: TypeAlias = Annotated[float, Quantity("stress", ge=0, le=STRONGEST)]
-PositiveStress: TypeAlias = Annotated[float, Quantity("stress", gt=0, le=STRONGEST)]
-PositiveDensity: TypeAlias = Annotated[float, Quantity("density", gt=0)]
-PositiveUnitWeight: TypeAlias = Annotated[float, Quantity("unit_weight", gt=0)]
-Acceleration: TypeAlias = Annotated[float, Quantity("acceleration")]
-Angle: TypeAlias = Annotated[float, Quantity("angle")]
-FacingAngle: TypeAlias = Annotated[float, Quantity("angle", gt=0, le=90)]
-FrictionAngle: TypeAlias = Annotated[float, Quantity("angle", ge=0, lt=90)]
-EmbraceAngle: TypeAlias = Annotated[float, Quantity("angle", gt=0, lt=360)]
-SideAngle: TypeAlias = Annotated[float, Quantity("angle", gt=0, lt=90)]
-SpreadAngle: TypeAlias = Annotated[float, Quantity("angle", gt=0, le=60)]
-WallFrictionAngle: TypeAlias = Annotated[float, Quantity("angle", gt=-90, lt=90)]
-SkewAngle: TypeAlias = Annotated[float, Quantity("angle", gt=-80, lt=80)]
-Time: TypeAlias = Annotated[float, Quantity("time", gt=0)]
+Number: TypeAlias = Annotated[float, RealNumber("number")]
+NonNegativeNumber: TypeAlias = Annotated[float, RealNumber("number", ge=0)]
+PositiveNumber: TypeAlias = Annotated[float, RealNumber("number", gt=0)]
+Share: TypeAlias = Annotated[float, RealNumber("number", gt=0, le=1)]
+Length: TypeAlias = Annotated[float, RealNumber("length")]
+PositiveLength: TypeAlias = Annotated[float, RealNumber("length", gt=0)]
+NonNegativeLength: TypeAlias = Annotated[float, RealNumber("length", ge=0)]
+Force: TypeAlias = Annotated[float, RealNumber("force")]
+PositiveForce: TypeAlias = Annotated[float, RealNumber("force", gt=0)]
+PositiveArea: TypeAlias = Annotated[float, RealNumber("area", gt=0)]
+Moment: TypeAlias = Annotated[float, RealNumber("moment")]
+ForcePerLength: TypeAlias = Annotated[float, RealNumber("force_per_length")]
+PositiveMass: TypeAlias = Annotated[float, RealNumber("mass", gt=0)]
+Stress: TypeAlias = Annotated[float, RealNumber("stress")]
+UnitWeight: TypeAlias = Annotated[float, RealNumber("unit_weight")]
+NonNegativeStress: TypeAlias = Annotated[float, RealNumber("stress", ge=0, le=STRONGEST)]
+PositiveStress: TypeAlias = Annotated[float, RealNumber("stress", gt=0, le=STRONGEST)]
+PositiveDensity: TypeAlias = Annotated[float, RealNumber("density", gt=0)]
+PositiveUnitWeight: TypeAlias = Annotated[float, RealNumber("unit_weight", gt=0)]
+Acceleration: TypeAlias = Annotated[float, RealNumber("acceleration")]
+Angle: TypeAlias = Annotated[float, RealNumber("angle")]
+FacingAngle: TypeAlias = Annotated[float, RealNumber("angle", gt=0, le=90)]
+FrictionAngle: TypeAlias = Annotated[float, RealNumber("angle", ge=0, lt=90)]
+EmbraceAngle: TypeAlias = Annotated[float, RealNumber("angle", gt=0, lt=360)]
+SideAngle: TypeAlias = Annotated[float, RealNumber("angle", gt=0, lt=90)]
+SpreadAngle: TypeAlias = Annotated[float, RealNumber("angle", gt=0, le=60)]
+WallFrictionAngle: TypeAlias = Annotated[float, RealNumber("angle", gt=-90, lt=90)]
+SkewAngle: TypeAlias = Annotated[float, RealNumber("angle", gt=-80, lt=80)]
+Time: TypeAlias = Annotated[float, RealNumber("time", gt=0)]
 Index: TypeAlias = Annotated[int, Integer(ge=0, le=2**31 - 1)]
 Position: TypeAlias = Annotated[int, Integer(ge=-(2**31), le=2**31 - 1)]
 Count: TypeAlias = Annotated[int, Integer(ge=1, le=1_000_000)]

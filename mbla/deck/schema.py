@@ -20,7 +20,7 @@ from pydantic_core import PydanticUndefined
 
 from mbla.deck.content import DeckContent
 from mbla.deck.fields import branches
-from mbla.deck.quantities import NAME_PATTERN, PARAMETER_PATTERN, Integer, Quantity
+from mbla.deck.quantities import NAME_PATTERN, PARAMETER_PATTERN, Integer, RealNumber
 from mbla.deck.section import EXACTLY_ONE
 from mbla.deck.units import DIMENSIONS
 
@@ -171,7 +171,7 @@ def _default(field: FieldInfo) -> str:
 def _value(annotation: Any, metadata: list[Any] | tuple[Any, ...] = ()) -> str:
     """What a value may be, in words."""
     for item in metadata:
-        if isinstance(item, Quantity):
+        if isinstance(item, RealNumber):
             return _quantity(item)
         if isinstance(item, Integer):
             return _integer(item)
@@ -215,7 +215,7 @@ def _integer(item: Integer) -> str:
     return f"integer, {item.ge} " + (f"to {item.le}" if most else "or more")
 
 
-def _quantity(quantity: Quantity) -> str:
+def _quantity(quantity: RealNumber) -> str:
     unit = DIMENSIONS[quantity.dimension].unit
     words = f"number [{unit}]" if unit else "number"
     signs = {"gt": ">", "ge": "≥", "lt": "<", "le": "≤"}

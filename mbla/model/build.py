@@ -20,7 +20,7 @@ from mbla.deck.units import Units
 from mbla.errors import DeckError, Fault, Finding, KeyPath, Message, Notice
 from mbla.model.block_sizes import unusual_sizes
 from mbla.model.drawn_joints import close_joints, joints_in_words
-from mbla.model.fill import Fill, build_fill
+from mbla.model.fill import CarriedFill, build_fill
 from mbla.model.fill_restraint import fill_struts
 from mbla.model.interfaces import read_interfaces
 from mbla.model.items import CollectedItems, collect_items, defects_in_words, density_of
@@ -110,7 +110,7 @@ def _load_cases(
 
 
 @dataclass(frozen=True)
-class Structure:
+class BuiltStructure:
     """Blocks by name, with the masses that rest on them, and what holds them; faults go to the selection.
 
     bent          : faces that were split
@@ -123,12 +123,12 @@ class Structure:
     supports: Supports
     interfaces: PrescribedInterfaces | None
     bent: BentFaces
-    fill: Fill | None
+    fill: CarriedFill | None
     masses: PointMasses
     first_notices: tuple[Notice, ...]
 
 
-def structure_of(deck: Deck) -> Structure:
+def structure_of(deck: Deck) -> BuiltStructure:
     """What the deck describes besides loads and joint laws."""
     faults: list[Fault] = []
     items = collect_items(deck, faults)
@@ -155,7 +155,7 @@ def structure_of(deck: Deck) -> Structure:
     sizes = () if faults else unusual_sizes(selection.blocks, supports.fixed, deck.units)
     first = (*items.notices, *built.notices, *([far] if isinstance(far, Notice) else []), *sizes)
     bent = replace(built.bent, items=items.items[built.bent.blocks])
-    return Structure(selection, supports, interfaces, bent, fill, carried, first)
+    return BuiltStructure(selection, supports, interfaces, bent, fill, carried, first)
 
 
 def _with_closed_joints(deck: Deck, built: BuiltBlocks, items: CollectedItems, faults: list[Fault]) -> BuiltBlocks:

@@ -18,8 +18,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray, summed
-from mbla.deck.sections.fill import Dispersal, Passive
-from mbla.deck.sections.fill import Fill as FillSection
+from mbla.deck.sections.fill import Dispersal, Fill, Passive
 from mbla.deck.units import Units
 from mbla.errors import Finding, Notice
 from mbla.model.selectors import BlockSelection, select_blocks
@@ -99,7 +98,7 @@ class Columns:
 
 
 @dataclass(frozen=True)
-class Fill:
+class CarriedFill:
     """What blocks carry of all fills.
 
     masses : (n_blocks,) part of their added masses
@@ -117,13 +116,13 @@ class Fill:
 
 
 def build_fill(
-    sections: Mapping[str, FillSection],
+    sections: Mapping[str, Fill],
     densities: Mapping[str, float],
     selection: BlockSelection,
     fixed: BoolArray,
     units: Units,
     tolerance: float,
-) -> Fill | None:
+) -> CarriedFill | None:
     """All fills of the deck on its blocks; None where it has none. Refuses fill on nothing, and two fills on one face.
 
     sections  : fills of the deck by name
@@ -157,7 +156,7 @@ def build_fill(
     parts = joined_masses(own.parts(densities[materials[name]]) for name, (_, own) in found.items())
     laden = parts.added_to(blocks)
     words = tuple(_in_words(sections[name], *each, units, blocks) for name, each in found.items())
-    return Fill(
+    return CarriedFill(
         laden.added_masses, laden.added_mass_points, words, {name: body for name, (body, _) in found.items()}, parts
     )
 
@@ -174,7 +173,7 @@ def _refuse_twice(
             selection.refuse(Finding("fill-on-fill", words, "fill", body.name))
 
 
-def _in_words(section: FillSection, body: FillBody, own: Columns, units: Units, blocks: Blocks) -> str:
+def _in_words(section: Fill, body: FillBody, own: Columns, units: Units, blocks: Blocks) -> str:
     under = np.unique(own.blocks)
     groups = list(dict.fromkeys(blocks.groups[block] for block in under.tolist()))
     where = f"z = {section.level:.6g} {units.length}" if section.level is not None else "its sloping top"
@@ -184,9 +183,7 @@ def _in_words(section: FillSection, body: FillBody, own: Columns, units: Units, 
     return f"{body.name}: {section.material} below {where}, {depths} {place}; {weight}"
 
 
-def _body(
-    name: str, section: FillSection, unit_weight: float, chosen: IntArray, blocks: Blocks, tolerance: float
-) -> FillBody:
+def _body(name: str, section: Fill, unit_weight: float, chosen: IntArray, blocks: Blocks, tolerance: float) -> FillBody:
     if section.surface is None:
         point, normal = np.array([0.0, 0.0, section.level]), np.array([0.0, 0.0, 1.0])
     else:

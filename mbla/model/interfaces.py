@@ -23,7 +23,7 @@ from mbla.model.selectors import BlockSelection
 from mbla.model.solids.blocks import Blocks
 from mbla.model.solids.plane import plane_axes
 from mbla.model.surfaces import lies_on
-from mbla.model.tables import Table, TableRefused, read_table
+from mbla.model.tables import CsvTable, TableRefused, read_table
 
 GROUND = "ground"
 """name that stands for ground planes, numbered in their order"""
@@ -65,7 +65,7 @@ def read_interfaces(deck: Deck, selection: BlockSelection, grounds: tuple[Ground
     return None
 
 
-def _prescribed(table: Table, bodies: _Bodies, joints: Collection[str]) -> PrescribedInterfaces:
+def _prescribed(table: CsvTable, bodies: _Bodies, joints: Collection[str]) -> PrescribedInterfaces:
     """Interfaces of a table with a row for each corner, those of an interface together; joints are names of laws.
 
     Raises TableRefused with every fault, by file and line.
@@ -96,12 +96,12 @@ def _prescribed(table: Table, bodies: _Bodies, joints: Collection[str]) -> Presc
     return PrescribedInterfaces(np.array(pairs), np.array(normals), corners, start, joint)
 
 
-def _called(table: Table, row: int) -> str:
+def _called(table: CsvTable, row: int) -> str:
     """``contacts.csv:7: interface bed``."""
     return f"{table.file}:{table.lines[row]}: interface {table.columns['interface'][row]}"
 
 
-def _pair(table: Table, row: int, bodies: _Bodies) -> tuple[int, int]:
+def _pair(table: CsvTable, row: int, bodies: _Bodies) -> tuple[int, int]:
     """Body a and b of a row, a ground plane first, else the block of lower number; -1 where there is a fault."""
     count, found = len(bodies.blocks), list[int | None]()
     for side in "ab":
@@ -122,7 +122,7 @@ def _pair(table: Table, row: int, bodies: _Bodies) -> tuple[int, int]:
     return -1, -1
 
 
-def _starts(table: Table, bodies: IntArray, joints: Collection[str]) -> IntArray:
+def _starts(table: CsvTable, bodies: IntArray, joints: Collection[str]) -> IntArray:
     """First row of each interface, and the number of rows; rows of one interface agree and follow each other."""
     names, laws = table.columns["interface"], table.columns.get("joint", [""] * len(table))
     first = [row for row in range(len(table)) if row == 0 or names[row] != names[row - 1]]

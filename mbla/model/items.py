@@ -15,14 +15,14 @@ from mbla.deck.sections.blocks import BlockItem
 from mbla.deck.sections.materials import Material
 from mbla.deck.units import Units
 from mbla.errors import DeckError, Fault, Finding, KeyPath, Message, Notice
-from mbla.model.blocks.generated import Generated, ItemContext, ItemRefused, Part
+from mbla.model.blocks.generated import Generated, ItemContext, ItemPart, ItemRefused
 from mbla.model.geometry.sheets import sheets
 from mbla.model.model import Ground
 from mbla.model.solids.blocks import Blocks, join_labels, labels_of
 from mbla.model.solids.build import Labels, indices_in_groups
 from mbla.model.solids.defects import Defect
 from mbla.model.solids.polyhedra import Polyhedra, join_polyhedra, take_polyhedra
-from mbla.model.solids.surface import Surface
+from mbla.model.solids.surface import GroundSurface
 from mbla.model.transform import build_transform, copies_of, repetitions, transform_item
 
 MOST = 2_000_000
@@ -47,7 +47,7 @@ class CollectedItems:
     items: IntArray
     fixed: BoolArray
     grounds: tuple[Ground, ...]
-    surfaces: tuple[tuple[KeyPath, str, tuple[Surface, ...]], ...]
+    surfaces: tuple[tuple[KeyPath, str, tuple[GroundSurface, ...]], ...]
     notices: tuple[Notice, ...]
     partial: frozenset[str]
 
@@ -60,9 +60,9 @@ def collect_items(deck: Deck, faults: list[Fault]) -> CollectedItems:
     Raises DeckError with all faults, where no item can be built; where all of them together make too much.
     """
     _refuse_amounts(deck)
-    placed: list[tuple[int, str, Part]] = []
+    placed: list[tuple[int, str, ItemPart]] = []
     grounds: list[Ground] = []
-    surfaces: list[tuple[KeyPath, str, tuple[Surface, ...]]] = []
+    surfaces: list[tuple[KeyPath, str, tuple[GroundSurface, ...]]] = []
     notices: list[Notice] = []
     partial: set[str] = set()
     n_blocks = 0

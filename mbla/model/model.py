@@ -12,7 +12,7 @@ from mbla.deck.sections.assessment import AssessmentSection
 from mbla.deck.units import Units
 from mbla.errors import Notice, UsageError
 from mbla.model.applied_load import AppliedLoad
-from mbla.model.fill import Fill
+from mbla.model.fill import CarriedFill
 from mbla.model.guides import NO_GUIDES, Guides, joined, together
 from mbla.model.solids.blocks import Blocks
 from mbla.model.solids.facets import NO_BENT_FACES, BentFaces
@@ -189,7 +189,7 @@ class Model:
     interfaces: PrescribedInterfaces | None = None
     ties: Ties = NO_TIES
     bent: BentFaces = NO_BENT_FACES
-    fill: Fill | None = None
+    fill: CarriedFill | None = None
 
     def of_case(self, load_case: LoadCase) -> Model:
         """The model as it may move under a load case: with the blocks of its settlement as a guided body."""

@@ -11,8 +11,7 @@ from mbla.arrays import BoolArray, FloatArray, IntArray, summed
 from mbla.deck.deck import Deck
 from mbla.deck.sections.contacts import ContactsSection
 from mbla.deck.sections.geometry_file import GeometryFile
-from mbla.deck.sections.supports import Plane
-from mbla.deck.sections.supports import Surface as SurfaceSection
+from mbla.deck.sections.supports import Plane, Surface
 from mbla.errors import DeckError, Finding, KeyPath
 from mbla.model.blocks.files.members import placed_vertices, read_members, surfaces_of_sheets
 from mbla.model.blocks.generated import ItemRefused
@@ -23,7 +22,7 @@ from mbla.model.selectors import BlockSelection, select_blocks
 from mbla.model.solids.blocks import Blocks
 from mbla.model.solids.plane import unit
 from mbla.model.solids.ragged import row_maxima
-from mbla.model.solids.surface import Surface
+from mbla.model.solids.surface import GroundSurface
 from mbla.model.surfaces import FACING, Carried, allowed_blocks, grounds_of_surfaces, surface_of_polygon, touching_only
 from mbla.model.wording import named, vector
 
@@ -45,7 +44,7 @@ class Supports:
 def build_supports(
     deck: Deck,
     brought_along: Supports,
-    surfaces: Sequence[tuple[KeyPath, str, Sequence[Surface]]],
+    surfaces: Sequence[tuple[KeyPath, str, Sequence[GroundSurface]]],
     selection: BlockSelection,
 ) -> Supports:
     """Supports of the deck, with those that items bring along.
@@ -59,7 +58,7 @@ def build_supports(
     fixed = brought_along.fixed.copy()
     grounds: list[tuple[KeyPath, Ground]] = []
     guides: list[tuple[KeyPath, Guides]] = []
-    sheets: list[tuple[KeyPath, str, Sequence[Surface], IntArray | None]] = [(*each, None) for each in surfaces]
+    sheets: list[tuple[KeyPath, str, Sequence[GroundSurface], IntArray | None]] = [(*each, None) for each in surfaces]
     complete = not selection.partial
     for number, support in enumerate(deck.content.supports):
         path: KeyPath = ("supports", number)
@@ -182,12 +181,12 @@ def _faces_on(
     return bool((facing & near & may_carry[blocks.block_of_face]).any())
 
 
-def _surfaces_of(section: SurfaceSection, path: KeyPath, deck: Deck, selection: BlockSelection) -> tuple[Surface, ...]:
+def _surfaces_of(section: Surface, path: KeyPath, deck: Deck, selection: BlockSelection) -> tuple[GroundSurface, ...]:
     """The surfaces that an item of `supports` describes; faults go to the selection, and then there is none."""
     tolerance = deck.contacts.tolerance
     if section.polygon is not None:
         found = surface_of_polygon(section.polygon, (*path, "polygon"), tolerance)
-        if isinstance(found, Surface):
+        if isinstance(found, GroundSurface):
             return (found,)
         selection.refuse(found)
         return ()

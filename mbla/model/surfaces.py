@@ -18,7 +18,7 @@ from mbla.model.solids.blocks import Blocks
 from mbla.model.solids.plane import plane_axes
 from mbla.model.solids.polygons import polygons_from_loops, widths
 from mbla.model.solids.ragged import row_maxima
-from mbla.model.solids.surface import Surface
+from mbla.model.solids.surface import GroundSurface
 
 FACING = 0.99
 """cosine of the greatest angle between a face and the ground it lies on"""
@@ -28,7 +28,7 @@ THIN = 1e-6
 """extent of corners over the greatest at which they lie on one line"""
 
 
-def surface_of_polygon(points: Sequence[Sequence[float]], path: KeyPath, tolerance: float) -> Surface | Finding:
+def surface_of_polygon(points: Sequence[Sequence[float]], path: KeyPath, tolerance: float) -> GroundSurface | Finding:
     """The surface within corners that the deck gives, or what is wrong with them.
 
     tolerance : distance from their plane over the root of the area
@@ -46,7 +46,7 @@ def surface_of_polygon(points: Sequence[Sequence[float]], path: KeyPath, toleran
     if not polygon.is_valid:
         words = f"crosses or touches itself ({shapely.is_valid_reason(polygon).partition('[')[0].lower()})"
         return Finding("surface-unfit", f"{words}: list its corners in order, as they come round it", *path)
-    return Surface(flattened(corners))
+    return GroundSurface(flattened(corners))
 
 
 @dataclass(frozen=True)
@@ -61,7 +61,7 @@ class Carried:
     allowed: BoolArray
     contacts: ContactsSection
 
-    def sides(self, surface: Surface) -> tuple[list[int], bool]:
+    def sides(self, surface: GroundSurface) -> tuple[list[int], bool]:
         """Sides of a surface, ±1 along its normal, on which faces lie or nearly lie; and whether any does lie on it."""
         blocks, normal, middle = self.blocks, surface.normal, surface.outline.mean(axis=0)
         heights = ((blocks.vertices - middle) @ normal)[blocks.loops]
@@ -79,7 +79,7 @@ class Carried:
         rows = rows[self._share_area(surface, rows)]
         return [int(each) for each in np.unique(side[rows])[::-1]], bool(touches[rows].any())
 
-    def _share_area(self, surface: Surface, faces: IntArray) -> BoolArray:
+    def _share_area(self, surface: GroundSurface, faces: IntArray) -> BoolArray:
         """Whether faces (n,) cover part of the surface as seen along its normal, (n,), by more than a strip."""
         blocks, middle = self.blocks, surface.outline.mean(axis=0)
         axes = plane_axes(surface.normal[None])[0]
@@ -91,7 +91,7 @@ class Carried:
 
 
 def grounds_of_surfaces(
-    surfaces: Sequence[Surface],
+    surfaces: Sequence[GroundSurface],
     path: KeyPath,
     joint: str,
     chosen: IntArray | None,
@@ -121,13 +121,13 @@ def grounds_of_surfaces(
     return grounds
 
 
-def how_it_misses(surfaces: Sequence[Surface], carried: Carried) -> str:
+def how_it_misses(surfaces: Sequence[GroundSurface], carried: Carried) -> str:
     """What is nearest to surfaces that carry nothing, to end a sentence; nothing where all is far from them."""
     words = [touching_only(surface.outline.mean(axis=0), surface.normal, carried, surface) for surface in surfaces]
     return next((text for text in words if text), "; move it, or leave it out")
 
 
-def touching_only(point: FloatArray, normal: FloatArray, carried: Carried, surface: Surface | None = None) -> str:
+def touching_only(point: FloatArray, normal: FloatArray, carried: Carried, surface: GroundSurface | None = None) -> str:
     """What touches a plane, or a surface, by an edge or corner alone, and the remedy, to end a sentence."""
     blocks = carried.blocks
     reach = carried.contacts.tolerance * blocks.sizes[blocks.block_of_vertex]

@@ -38,7 +38,7 @@ class TableRefused(Exception):  # noqa: N818 - an answer, not a defect
 
 
 @dataclass(frozen=True)
-class Table:
+class CsvTable:
     """Rows of a table as texts.
 
     columns : texts by name, (n,) each; missing optional columns are not there
@@ -91,7 +91,9 @@ class Table:
         return None
 
 
-def read_table(path: Path, required: Sequence[str], optional: Sequence[str] = (), *, with_rest: bool = False) -> Table:
+def read_table(
+    path: Path, required: Sequence[str], optional: Sequence[str] = (), *, with_rest: bool = False
+) -> CsvTable:
     """The table of a file; columns may stand in any order.
 
     with_rest : rows go on after the required columns, which then come first and in order, with a number of columns of
@@ -125,7 +127,7 @@ def read_table(path: Path, required: Sequence[str], optional: Sequence[str] = ()
         raise _unreadable(f"{name}: has no rows below its header")
     columns = {each: [row[place] for _, row in rows] for place, each in enumerate(known)}
     rest = [[text for text in row[len(known) :] if text] for _, row in rows] if with_rest else []
-    return Table(name, columns, rest, [number for number, _ in rows], _separator(text) == ";")
+    return CsvTable(name, columns, rest, [number for number, _ in rows], _separator(text) == ";")
 
 
 def _unreadable(words: str) -> TableRefused:

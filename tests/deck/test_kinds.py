@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import pytest
 
-from mbla.deck.kinds import Choice, Kind, in_order, keys_of, register
+from mbla.deck.kinds import Choice, ChoiceKind, in_order, keys_of, register
 from mbla.deck.section import Section
 
 
-def kinds(*pairs: tuple[str, str]) -> dict[str, Kind]:
-    found: dict[str, Kind] = {}
+def kinds(*pairs: tuple[str, str]) -> dict[str, ChoiceKind]:
+    found: dict[str, ChoiceKind] = {}
     for name, after in pairs:
-        register(found, Kind(name, Section, after=after))
+        register(found, ChoiceKind(name, Section, after=after))
     return found
 
 

@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from pydantic import TypeAdapter, ValidationError
 
-from mbla.deck.quantities import Count, Index, Integer, Quantity, Switch
+from mbla.deck.quantities import Count, Index, Integer, RealNumber, Switch
 from mbla.deck.units import DECIMAL, DIMENSIONS, KILOGRAMS, METRES, NEWTONS, STANDARD_GRAVITY, Units, _factor_by_pint
 
 SI = Units()
@@ -165,14 +165,14 @@ def test_index_from_zero() -> None:
 @pytest.mark.parametrize(
     ("bounds", "good", "bad"),
     [
-        (Quantity("number", gt=0), [1e-300, 5], [0, 0.0, -1]),
-        (Quantity("number", ge=0), [0, 1], [-1e-300]),
-        (Quantity("number", lt=90), [89.999], [90]),
-        (Quantity("number", le=1), [1, "=six"][:1], [1.0000001, "=six"]),
-        (Quantity("number"), [-1, 0, 1e300], [True, None, [1], {}, float("nan"), float("-inf")]),
+        (RealNumber("number", gt=0), [1e-300, 5], [0, 0.0, -1]),
+        (RealNumber("number", ge=0), [0, 1], [-1e-300]),
+        (RealNumber("number", lt=90), [89.999], [90]),
+        (RealNumber("number", le=1), [1, "=six"][:1], [1.0000001, "=six"]),
+        (RealNumber("number"), [-1, 0, 1e300], [True, None, [1], {}, float("nan"), float("-inf")]),
     ],
 )
-def test_bounds_hold_for_numbers_and_expressions(bounds: Quantity, good: list[object], bad: list[object]) -> None:
+def test_bounds_hold_for_numbers_and_expressions(bounds: RealNumber, good: list[object], bad: list[object]) -> None:
     annotation = Annotated[float, bounds]
     assert all(accepts(annotation, value) for value in good)
     assert not any(accepts(annotation, value) for value in bad)

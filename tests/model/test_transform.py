@@ -8,7 +8,7 @@ import pytest
 
 from mbla.deck.sections.placement import Repetition, TransformStep
 from mbla.model.blocks.arch import ArchItem, generate
-from mbla.model.blocks.generated import Generated, ItemContext, Part
+from mbla.model.blocks.generated import Generated, ItemContext, ItemPart
 from mbla.model.transform import AffineMap, build_transform, repetitions, transform_item
 from tests.model.shapes import L_OUTLINE, build_raw, prism, raw
 
@@ -92,7 +92,7 @@ def test_steps_are_applied_in_order() -> None:
 @pytest.mark.parametrize("mirrors", [0, 1, 2])
 def test_faces_stay_outwards_without_a_notice(mirrors: int) -> None:
     steps = [{"mirror": {"normal": (1, 2, 3), "point": (1, 1, 0)}}] * mirrors + [{"scale": 3.0}]
-    moved = transform_item(Generated((Part(raw(prism(L_OUTLINE))),)), transform(*steps))
+    moved = transform_item(Generated((ItemPart(raw(prism(L_OUTLINE))),)), transform(*steps))
     built = build_raw(moved.parts[0].polyhedra)
     assert built.notices == ()
     assert not built.defects

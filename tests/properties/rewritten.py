@@ -12,7 +12,7 @@ from pydantic.fields import FieldInfo
 
 from mbla.arrays import FloatArray
 from mbla.deck.content import DeckContent
-from mbla.deck.quantities import Quantity
+from mbla.deck.quantities import RealNumber
 from tests.properties.random_items import Tree
 
 SIZES = {
@@ -66,7 +66,7 @@ def _walk(value: Any, annotation: Any, extra: tuple[Any, ...], change: Callable[
         return [_walk(part, kind, (), change) for part, kind in zip(value, each, strict=True)]
     if isinstance(value, bool) or not isinstance(value, (int, float)):
         return value
-    found = [note for note in (*extra, *_notes(annotation)) if isinstance(note, Quantity)]
+    found = [note for note in (*extra, *_notes(annotation)) if isinstance(note, RealNumber)]
     return change(value, found[0].dimension) if found else value
 
 

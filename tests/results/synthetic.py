@@ -16,7 +16,7 @@ from mbla.deck.sections.assessment import AssessmentSection
 from mbla.deck.units import Units
 from mbla.errors import Message, Notice
 from mbla.model.applied_load import without_forces
-from mbla.model.fill import Fill
+from mbla.model.fill import CarriedFill
 from mbla.model.guides import Guides
 from mbla.model.model import Ground, Joint, LoadCase, Model, Pushing
 from mbla.model.solids.blocks import Blocks, labels_of
@@ -499,7 +499,7 @@ def full_model(model: Model) -> Model:
             not_run,
         ),
         guides=Guides(np.array([2]), np.array([0]), ways, ("1 block held in rz",)),
-        fill=Fill(0.5 * model.blocks.added_masses, model.blocks.added_mass_points, ("soil: 1 m deep",)),
+        fill=CarriedFill(0.5 * model.blocks.added_masses, model.blocks.added_mass_points, ("soil: 1 m deep",)),
         ties=TIE,
     )
 

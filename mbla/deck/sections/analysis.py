@@ -7,7 +7,7 @@ from typing import Annotated, Literal, TypeAlias
 
 from pydantic import Field
 
-from mbla.deck.quantities import Count, Line, Quantity, Switch, Time
+from mbla.deck.quantities import Count, Line, RealNumber, Switch, Time
 from mbla.deck.section import ByShape, Section, rule
 from mbla.deck.sections.accuracy import Accuracy, set_by_accuracy
 from mbla.deck.suggestions import listed
@@ -20,15 +20,15 @@ Sensitivity: TypeAlias = Annotated[Switch | Annotated[list[Line], Field(min_leng
 class PublishedScheme(Section):
     """Parameters of the iterative procedure of Portioli et al. 2014 for non-associative flow."""
 
-    slope: Annotated[float, Quantity("number", ge=0, le=1)] = Field(
+    slope: Annotated[float, RealNumber("number", ge=0, le=1)] = Field(
         0.0,
         description="alpha: share of the friction coefficient kept as slope of each program's yield line; "
         "published runs use small values above 0, which are a small dilatancy; 0 is none",
     )
-    averaging: Annotated[float, Quantity("number", gt=0, le=1)] = Field(
+    averaging: Annotated[float, RealNumber("number", gt=0, le=1)] = Field(
         0.6, description="beta: weight of the newest normal forces in the average that sets the fictitious cohesion"
     )
-    tolerance: Annotated[float, Quantity("number", gt=0, le=0.1)] = Field(
+    tolerance: Annotated[float, RealNumber("number", gt=0, le=0.1)] = Field(
         1e-4,
         description="the sequence stops when the load factor changes by less, relatively, and no force exceeds "
         "its true friction by more than this share of the mean block load",
@@ -39,10 +39,10 @@ class PublishedScheme(Section):
 class PathOfJoints(Section):
     """The path of elastic joints, whose greatest load is the load factor without dilatancy."""
 
-    ratio: Annotated[float, Quantity("number", ge=0.05, le=2)] = Field(
+    ratio: Annotated[float, RealNumber("number", ge=0.05, le=2)] = Field(
         0.4, description="shear stiffness of a joint over its normal stiffness"
     )
-    until: Annotated[float, Quantity("number", ge=5, le=1000)] = Field(
+    until: Annotated[float, RealNumber("number", ge=5, le=1000)] = Field(
         50.0,
         description="displacement at the end of the path, in elastic displacements: of the structure at its "
         "associative load factor with all joints stuck",
@@ -80,7 +80,7 @@ class AnalysisSection(Section):
     published: PublishedScheme = Field(
         default_factory=PublishedScheme, description="parameters of the published procedure"
     )
-    search: Annotated[float, Quantity("number", ge=0, le=100)] | None = Field(
+    search: Annotated[float, RealNumber("number", ge=0, le=100)] | None = Field(
         None,
         description="flow other than associative: effort to lower the load factor, as a multiple of the iterations "
         "of the first solve; in space only where it is given; " + set_by_accuracy("search"),
@@ -121,15 +121,15 @@ class AnalysisSection(Section):
         "sweeps, error below 1 %; standard: below 1e-4; reference: to double precision, and without dilatancy the "
         "load factors for other stiffnesses of joints as well",
     )
-    tolerance: Annotated[float, Quantity("number", gt=0, le=1e-3)] | None = Field(
+    tolerance: Annotated[float, RealNumber("number", gt=0, le=1e-3)] | None = Field(
         None, description="relative tolerance of the cone solver; " + set_by_accuracy("tolerance")
     )
-    gap: Annotated[float, Quantity("number", gt=0, le=1e-2)] | None = Field(
+    gap: Annotated[float, RealNumber("number", gt=0, le=1e-2)] | None = Field(
         None,
         description="greatest distance of the proved bounds of the associative load factor, relative; where it is "
         "larger, the program is solved again by the other method; " + set_by_accuracy("gap"),
     )
-    residual: Annotated[float, Quantity("number", gt=0, le=1e-2)] | None = Field(
+    residual: Annotated[float, RealNumber("number", gt=0, le=1e-2)] | None = Field(
         None,
         description="flow other than associative: greatest residual of the joint law of a state that a search "
         "finds; " + set_by_accuracy("residual"),

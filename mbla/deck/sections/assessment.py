@@ -8,7 +8,7 @@ from typing import Annotated, Literal, TypeAlias
 
 from pydantic import Field
 
-from mbla.deck.quantities import Count, NonNegativeLength, NonNegativeNumber, PositiveLength, Quantity, Time
+from mbla.deck.quantities import Count, NonNegativeLength, NonNegativeNumber, PositiveLength, RealNumber, Time
 from mbla.deck.section import Section, exactly_one_of, given, rule
 from mbla.deck.units import STANDARD_GRAVITY
 from mbla.errors import Finding
@@ -19,7 +19,7 @@ LIMIT_STATES = ("SLD", "SLV", "SLC")
 GREATEST, LONGEST = 1.0, 2.0
 """a_g in g and T_C* in s, above what maps of any country have: 0.3 and 0.6 in Italy for a return period of 475 years"""
 
-GroundAcceleration: TypeAlias = Annotated[float, Quantity("number", gt=0)]
+GroundAcceleration: TypeAlias = Annotated[float, RealNumber("number", gt=0)]
 Soil: TypeAlias = Literal["A", "B", "C", "D", "E"]
 
 
@@ -27,7 +27,7 @@ class NtcSpectrum(Section):
     """Spectrum of NTC 2018, 3.2.3.2.1, from the parameters of a site and of a return period."""
 
     a_g: GroundAcceleration = Field(description="greatest acceleration of rock, in g, at most 1")
-    F_0: Annotated[float, Quantity("number", ge=2.2, le=5)] = Field(description="greatest amplification")
+    F_0: Annotated[float, RealNumber("number", ge=2.2, le=5)] = Field(description="greatest amplification")
     T_C_star: Time = Field(
         description="period, s, at most 2, at which the spectrum of rock begins to fall with constant velocity"
     )
@@ -106,7 +106,7 @@ class HeightSection(Section):
     top: PositiveLength = Field(description="height of the building above the foundation")
     period: Time = Field(description="T_1, first period of the building, s")
     storeys: Count = Field(description="n, for the participation factor 3n/(2n + 1)")
-    damping: Annotated[float, Quantity("number", ge=1, le=30)] = Field(5.0, description="of the building, per cent")
+    damping: Annotated[float, RealNumber("number", ge=1, le=30)] = Field(5.0, description="of the building, per cent")
 
 
 @rule(HeightSection)
@@ -128,7 +128,7 @@ class AssessmentSection(Section):
     knowledge: Literal["LC1", "LC2", "LC3"] = Field(
         "LC1", description="level of knowledge; LC1 counts in any case where joints have no compressive strength"
     )
-    behaviour_factor: Annotated[float, Quantity("number", ge=1, le=5)] = Field(
+    behaviour_factor: Annotated[float, RealNumber("number", ge=1, le=5)] = Field(
         2.0, description="q, for SLV by the load factor alone"
     )
     height: HeightSection | None = Field(None, description="where the mechanism does not begin at the ground")

@@ -7,7 +7,7 @@ from typing import Annotated, Literal, TypeAlias
 
 from pydantic import Field
 
-from mbla.deck.quantities import Box, Direction, Integer, Name, PositiveLength, Quantity
+from mbla.deck.quantities import Box, Direction, Integer, Name, PositiveLength, RealNumber
 from mbla.deck.section import ByShape, Section, given, rule
 from mbla.deck.sections.selectors import Selector
 from mbla.deck.suggestions import listed
@@ -18,7 +18,7 @@ class AboutNormal(Section):
     """Interfaces whose normal is near a direction or its opposite."""
 
     normal: Direction = Field(description="direction of the normal, not necessarily of length 1")
-    within: Annotated[float, Quantity("angle", gt=0, le=90)] = Field(
+    within: Annotated[float, RealNumber("angle", gt=0, le=90)] = Field(
         description="greatest angle in degrees between the normal of the interface and this direction or its opposite"
     )
 
@@ -59,12 +59,12 @@ class ContactPoints(Section):
     spacing: PositiveLength | None = Field(
         None, description="instead of per_edge: greatest distance of the points along the edges"
     )
-    inset: Annotated[float, Quantity("number", ge=0, lt=1)] = Field(
+    inset: Annotated[float, RealNumber("number", ge=0, lt=1)] = Field(
         0.0,
         description="share of the way to the centroid by which points are moved inwards (shrinking of faces in "
         "LMGC90): lowers torsion (0.459 is exact for a square), and rocking by the same share",
     )
-    rounding: Annotated[float, Quantity("length", ge=0)] = Field(
+    rounding: Annotated[float, RealNumber("length", ge=0)] = Field(
         0.0,
         description="instead of inset: distance by which the edges that carry points are moved inwards (rounding "
         "length of corners in UDEC)",
@@ -75,10 +75,10 @@ class ContactsSection(Section):
     """How contacts are found, where their points lie, and their joint law."""
 
     joint: Name = Field(description="joint law of every contact that no override names")
-    tolerance: Annotated[float, Quantity("number", gt=0, le=0.1)] = Field(
+    tolerance: Annotated[float, RealNumber("number", gt=0, le=0.1)] = Field(
         1e-3, description="greatest gap, overlap and sliver width, relative to block size"
     )
-    overlap_tolerance: Annotated[float, Quantity("number", gt=0, le=0.1)] | None = Field(
+    overlap_tolerance: Annotated[float, RealNumber("number", gt=0, le=0.1)] | None = Field(
         None,
         description="greatest overlap, relative to block size; default: tolerance. Faces that overlap by no more "
         "are in contact, midway; gaps above tolerance stay open. The shared volume counts in the weight of both "

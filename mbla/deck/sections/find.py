@@ -7,7 +7,7 @@ from typing import Annotated
 
 from pydantic import Field
 
-from mbla.deck.quantities import Integer, Line, Name, Number, Quantity, Switch
+from mbla.deck.quantities import Integer, Line, Name, Number, RealNumber, Switch
 from mbla.deck.section import EXACTLY_ONE, Section, one_of, rule
 from mbla.errors import Finding
 
@@ -46,7 +46,7 @@ class FindSection(Section):
     scan: Annotated[int, Integer(ge=1, le=MOST_STEPS)] = Field(
         1, description="equal steps from bound to bound, each of which is solved: more than 1 finds several values"
     )
-    tolerance: Annotated[float, Quantity("number", gt=0, le=0.1)] = Field(
+    tolerance: Annotated[float, RealNumber("number", gt=0, le=0.1)] = Field(
         TOLERANCE, description="tolerance of the value, relative to the larger of the bounds"
     )
 

@@ -37,7 +37,7 @@ from mbla.model.blocks.arches.sections import (
 from mbla.model.blocks.curves import Curve, named_curve
 from mbla.model.blocks.curves.shape_keys import SHAPES_WITH, CurveShape, range_of_rise, shape_keys
 from mbla.model.blocks.curves.spline import curve_through
-from mbla.model.blocks.generated import Generated, GroundPart, ItemContext, ItemRefused, Part
+from mbla.model.blocks.generated import Generated, GroundPart, ItemContext, ItemPart, ItemRefused
 from mbla.model.blocks.item import SPRINGERS, ItemKind, SpringingItem, register_item
 
 
@@ -162,7 +162,7 @@ def generate(item: ArchItem, context: ItemContext) -> Generated:
             grounds = grounds_behind(made[1], len(voussoirs.polyhedra), item.joint)
     if item.springers == "blocks":
         behind = through(springer_polygons(section, springing), (0.0, item.width), shear)
-        parts.append(Part(behind, SPRINGERS.suffix, fixed=True))
+        parts.append(ItemPart(behind, SPRINGERS.suffix, fixed=True))
     if item.springers == "ground":
         grounds = (*springing_grounds(section, voussoirs.labels["voussoir"], item.joint, shear), *grounds)
     parts += _piers(item, item.piers, section, shear) if item.piers else ()
@@ -176,17 +176,17 @@ def _curve(item: ArchItem) -> Curve:
     return named_curve(item.shape, item.span, item.rise, item.embrace, item.side_angle)
 
 
-def _voussoirs(item: ArchItem, section: ArchSection, shear: float) -> Part:
+def _voussoirs(item: ArchItem, section: ArchSection, shear: float) -> ItemPart:
     """Blocks of all rings; in running bond across the width every other course begins with half a block."""
     polygons, number, ring = voussoir_polygons(section)
     even = np.linspace(0.0, item.width, item.units_across + 1)
     odd = np.concatenate([[0.0], (even[:-1] + even[1:]) / 2, [item.width]]) if item.units_across > 1 else even
     rows = [ends_of(odd if shifted else even) for shifted in (number + ring) % 2]
     made, block, unit = units_across(polygons, rows, shear)
-    return Part(made, member="voussoir", labels={"voussoir": number[block], "ring": ring[block], "unit": unit})
+    return ItemPart(made, member="voussoir", labels={"voussoir": number[block], "ring": ring[block], "unit": unit})
 
 
-def _piers(item: ArchItem, piers: ArchPiers, section: ArchSection, shear: float) -> Iterator[Part]:
+def _piers(item: ArchItem, piers: ArchPiers, section: ArchSection, shear: float) -> Iterator[ItemPart]:
     """Courses from the bottom, left and right in each; then the springer blocks where the joints are inclined."""
     joints = springing_joints(section)
     for joint in joints:
@@ -199,13 +199,13 @@ def _piers(item: ArchItem, piers: ArchPiers, section: ArchSection, shear: float)
     places = [(left - piers.width, left, left_top), (right, right + piers.width, right_top)]
     blocks = stacks(places, piers.height, piers.courses)
     count, across = np.arange(len(blocks)), (0.0, item.width)
-    yield Part(through(blocks, across, shear), member="pier", labels={"course": count // 2, "unit": count % 2})
+    yield ItemPart(through(blocks, across, shear), member="pier", labels={"course": count // 2, "unit": count % 2})
     springers = [(side, end_springer(joint, piers.width)) for side, joint in enumerate(joints)]
     polygons = [polygon for _, polygon in springers if polygon is not None]
     if polygons:
         sides = np.array([side for side, polygon in springers if polygon is not None])
         labels = {"course": np.full(len(sides), piers.courses), "unit": sides}
-        yield Part(through(polygons, across, shear), member="springer", labels=labels)
+        yield ItemPart(through(polygons, across, shear), member="springer", labels=labels)
 
 
 def amount(item: ArchItem) -> tuple[float, str]:

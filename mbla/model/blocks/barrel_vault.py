@@ -25,7 +25,7 @@ from mbla.model.blocks.arches.sections import (
     units_across,
     voussoir_polygons,
 )
-from mbla.model.blocks.generated import Generated, GroundPart, ItemContext, Part
+from mbla.model.blocks.generated import Generated, GroundPart, ItemContext, ItemPart
 from mbla.model.blocks.item import SPRINGERS, ItemKind, register_item
 from mbla.model.blocks.vaults.vault import VaultItem, check_apex, check_curve, vault_section
 
@@ -72,7 +72,7 @@ def generate(item: BarrelVaultItem, context: ItemContext) -> Generated:
 
     rows = [across(course) for course in range(item.courses)]
     units, course, unit = units_across(voussoir_polygons(section)[0], rows)
-    barrel = Part(units, member="barrel" if item.backing else "", labels={"course": course, "unit": unit})
+    barrel = ItemPart(units, member="barrel" if item.backing else "", labels={"course": course, "unit": unit})
     parts, grounds = [barrel], tuple[GroundPart, ...]()
     if item.backing is not None:
         made = haunches(item.backing, section, None, across)
@@ -81,7 +81,7 @@ def generate(item: BarrelVaultItem, context: ItemContext) -> Generated:
             grounds = grounds_behind(made[1], len(units), item.joint)
     if item.springers == "blocks":
         behind = through(springer_polygons(section, item.thickness), (0.0, item.length))
-        parts.append(Part(behind, SPRINGERS.suffix, fixed=True))
+        parts.append(ItemPart(behind, SPRINGERS.suffix, fixed=True))
     if item.springers == "ground":
         grounds = (*springing_grounds(section, course, item.joint), *grounds)
     return Generated(tuple(parts), grounds)

@@ -10,7 +10,7 @@ from pydantic import Field
 from mbla.deck.quantities import Point, corners_in_order
 from mbla.deck.section import rule
 from mbla.errors import Finding
-from mbla.model.blocks.generated import Generated, ItemContext, Part
+from mbla.model.blocks.generated import Generated, ItemContext, ItemPart
 from mbla.model.blocks.item import AnyItem, ItemKind, register_item
 from mbla.model.solids.polyhedra import cuboids
 
@@ -30,7 +30,7 @@ def box_extent(box: BoxItem) -> Iterator[Finding]:
 
 def generate(item: BoxItem, context: ItemContext) -> Generated:
     """The cuboid between two corners."""
-    return Generated((Part(cuboids(np.array([item.min]), np.array([item.max]))),))
+    return Generated((ItemPart(cuboids(np.array([item.min]), np.array([item.max]))),))
 
 
 register_item(ItemKind("box", BoxItem, generate))

@@ -25,7 +25,7 @@ from mbla.deck.positions import DRUM
 from mbla.deck.quantities import Count, Integer, NonNegativeLength, PositiveLength
 from mbla.deck.section import Section, exactly_one_of, given, rule
 from mbla.errors import Finding
-from mbla.model.blocks.generated import Generated, ItemContext, Part
+from mbla.model.blocks.generated import Generated, ItemContext, ItemPart
 from mbla.model.blocks.item import AnyItem, ItemKind, register_item
 from mbla.model.solids.polyhedra import chains
 
@@ -122,7 +122,7 @@ def generate(item: ColumnItem, context: ItemContext) -> Generated:
     foot = item.base.height if item.base else 0.0
     joints = foot + _joints(item)
     shaft = chains(_polygons(outline, _radii(item, joints), joints))
-    parts = [Part(shaft, member="drum", labels={"drum": np.arange(len(shaft))})]
+    parts = [ItemPart(shaft, member="drum", labels={"drum": np.arange(len(shaft))})]
     if item.base:
         parts.insert(0, _end(item.base, outline, 0.0, "base"))
     if item.capital:
@@ -154,10 +154,10 @@ def _polygons(outline: FloatArray, radii: FloatArray, heights: FloatArray) -> Fl
     return np.stack([polygons[:-1], polygons[1:]], axis=1)
 
 
-def _end(end: ColumnEnd, outline: FloatArray, bottom: float, member: str) -> Part:
+def _end(end: ColumnEnd, outline: FloatArray, bottom: float, member: str) -> ItemPart:
     size, flat = (end.side, _SQUARE) if end.side is not None else (end.radius, outline)
     assert size is not None  # a rule of the deck: one of side and radius
-    return Part(chains(_polygons(flat, np.full(2, size), np.array([bottom, bottom + end.height]))), member=member)
+    return ItemPart(chains(_polygons(flat, np.full(2, size), np.array([bottom, bottom + end.height]))), member=member)
 
 
 def amount(item: ColumnItem) -> tuple[float, str]:

@@ -35,7 +35,7 @@ from mbla.deck.section import Section, given, one_of, rule
 from mbla.errors import Finding
 from mbla.model.blocks.curves import named_curve, radius_of
 from mbla.model.blocks.curves.shapes import Smooth
-from mbla.model.blocks.generated import Generated, ItemContext, ItemRefused, Part, level_ground
+from mbla.model.blocks.generated import Generated, ItemContext, ItemPart, ItemRefused, level_ground
 from mbla.model.blocks.item import SPRINGERS, ItemKind, SpringingItem, register_item
 from mbla.model.solids.polyhedra import Polyhedra, chains, join_polyhedra
 
@@ -165,10 +165,10 @@ def generate(item: DomeItem, context: ItemContext) -> Generated:
         parts.insert(0, _part(list(_drum(dome, item.drum)), "drum", "course"))
     if item.oculus is None:
         labels = {"ring": np.array([item.rings]), "segment": np.array([0])}
-        parts.append(Part(_keystone(dome, joints[-1]), member="keystone", labels=labels))
+        parts.append(ItemPart(_keystone(dome, joints[-1]), member="keystone", labels=labels))
     if item.springers == "blocks":
         labels = {"segment": np.arange(item.segments)}
-        parts.append(Part(dome.ring(_behind(dome, joints[0]), -1), SPRINGERS.suffix, fixed=True, labels=labels))
+        parts.append(ItemPart(dome.ring(_behind(dome, joints[0]), -1), SPRINGERS.suffix, fixed=True, labels=labels))
     grounds = (level_ground(np.arange(item.segments), item.joint),) if item.springers == "ground" else ()
     return Generated(tuple(parts), grounds)
 
@@ -195,10 +195,10 @@ def _top(item: DomeItem, circle: Smooth) -> float:
     return float(np.arcsin(diameter / across))
 
 
-def _part(rings: list[Polyhedra], member: str, position: str) -> Part:
+def _part(rings: list[Polyhedra], member: str, position: str) -> ItemPart:
     number = np.repeat(np.arange(len(rings)), [len(ring) for ring in rings])
     segment = np.concatenate([np.arange(len(ring)) for ring in rings])
-    return Part(join_polyhedra(rings), member=member, labels={position: number, "segment": segment})
+    return ItemPart(join_polyhedra(rings), member=member, labels={position: number, "segment": segment})
 
 
 def _drum(dome: _Dome, drum: DomeDrum) -> Iterator[Polyhedra]:

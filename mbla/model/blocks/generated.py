@@ -12,11 +12,11 @@ import numpy as np
 from mbla.arrays import FloatArray, IntArray
 from mbla.errors import Finding, KeyPath, Notice
 from mbla.model.solids.polyhedra import Polyhedra
-from mbla.model.solids.surface import Surface
+from mbla.model.solids.surface import GroundSurface
 
 
 @dataclass(frozen=True)
-class Part:
+class ItemPart:
     """Polyhedra of one group: the item's own, or the item's with ``suffix`` after it; ``fixed`` ones do not move.
 
     member : part of a composite item, such as "lintel": of all the blocks, or of each; empty where there is none
@@ -61,9 +61,9 @@ class Generated:
     Surfaces are rigid ground under whatever lies on them.
     """
 
-    parts: tuple[Part, ...]
+    parts: tuple[ItemPart, ...]
     grounds: tuple[GroundPart, ...] = ()
-    surfaces: tuple[Surface, ...] = ()
+    surfaces: tuple[GroundSurface, ...] = ()
     notices: tuple[Notice, ...] = field(default=())
 
 

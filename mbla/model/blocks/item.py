@@ -11,7 +11,7 @@ from typing import Any, Literal, TypeAlias
 
 from pydantic import Field
 
-from mbla.deck.kinds import Kind, register
+from mbla.deck.kinds import ChoiceKind, register
 from mbla.deck.positions import BlockPosition
 from mbla.deck.quantities import Name
 from mbla.deck.section import Section, rule
@@ -75,7 +75,7 @@ have many facets each of these counts."""
 
 
 @dataclass(frozen=True)
-class ItemKind(Kind):
+class ItemKind(ChoiceKind):
     """A kind of items.
 
     generate  : turns an item into polyhedra in its own coordinates

@@ -10,7 +10,7 @@ from pydantic import Field
 from mbla.deck.quantities import Index, Point
 from mbla.deck.section import rule
 from mbla.errors import Finding, KeyPath
-from mbla.model.blocks.generated import Generated, ItemContext, Part
+from mbla.model.blocks.generated import Generated, ItemContext, ItemPart
 from mbla.model.blocks.item import AnyItem, ItemKind, register_item
 from mbla.model.solids.polyhedra import polyhedra_from_lists
 
@@ -40,7 +40,7 @@ def polyhedron_faces(polyhedron: PolyhedronItem) -> Iterator[Finding]:
 
 def generate(item: PolyhedronItem, context: ItemContext) -> Generated:
     """The polyhedron as listed; faces in any orientation."""
-    return Generated((Part(polyhedra_from_lists([item.vertices], [item.faces])),))
+    return Generated((ItemPart(polyhedra_from_lists([item.vertices], [item.faces])),))
 
 
 def place(face: int | None) -> KeyPath:

@@ -19,10 +19,10 @@ from pydantic import Field
 
 from mbla.arrays import FloatArray, IntArray
 from mbla.deck.positions import TREAD
-from mbla.deck.quantities import Count, Integer, Name, NonNegativeLength, PositiveLength, Quantity
+from mbla.deck.quantities import Count, Integer, Name, NonNegativeLength, PositiveLength, RealNumber
 from mbla.deck.section import rule
 from mbla.errors import Finding
-from mbla.model.blocks.generated import Generated, ItemContext, Part, level_ground
+from mbla.model.blocks.generated import Generated, ItemContext, ItemPart, level_ground
 from mbla.model.blocks.item import AnyItem, ItemKind, SideGroup, register_item
 from mbla.model.solids.polyhedra import Polyhedra, chains, join_polyhedra, polyhedra_from_cells
 
@@ -39,8 +39,8 @@ class SpiralStairItem(AnyItem):
     inner_radius: PositiveLength = Field(description="radius of the well")
     outer_radius: PositiveLength = Field(description="radius of the face of the wall")
     rise: PositiveLength = Field(description="height from tread to tread")
-    angle: Annotated[float, Quantity("angle", gt=0, le=120)] = Field(description="from tread to tread, degrees")
-    overlap: Annotated[float, Quantity("angle", gt=0, lt=60)] = Field(
+    angle: Annotated[float, RealNumber("angle", gt=0, le=120)] = Field(description="from tread to tread, degrees")
+    overlap: Annotated[float, RealNumber("angle", gt=0, lt=60)] = Field(
         description="angle over which a tread rests on the one below, degrees; less than angle"
     )
     rebate: NonNegativeLength = Field(
@@ -94,16 +94,16 @@ def generate(item: SpiralStairItem, context: ItemContext) -> Generated:
         others = _rebated(item, number[1:], angles, reach)
     else:
         others = chains(_sectors(item, number[1:], angles, reach, 0.0, item.rise))
-    parts = [Part(join_polyhedra([lowest, others]), labels={"tread": number})]
+    parts = [ItemPart(join_polyhedra([lowest, others]), labels={"tread": number})]
     end = (item.outer_radius, outer)
     if item.wall != "none":
         shelf = _sectors(item, number[1:], angles[1:], end, -item.rise, -item.rebate)
-        parts.append(Part(chains(shelf), WALL.suffix, fixed=True, member="shelf", labels={"tread": number[1:]}))
+        parts.append(ItemPart(chains(shelf), WALL.suffix, fixed=True, member="shelf", labels={"tread": number[1:]}))
     if item.wall == "pocket":
         free = _sectors(item, number[:-1], angles[:-1], end, item.rise, 2 * item.rise)
         last = _sectors(item, number[-1:], angles, end, item.rise, 2 * item.rise)
         heads = join_polyhedra([chains(free), chains(last)])
-        parts.append(Part(heads, WALL.suffix, fixed=True, member="head", labels={"tread": number}))
+        parts.append(ItemPart(heads, WALL.suffix, fixed=True, member="head", labels={"tread": number}))
     grounds = (level_ground(np.array([0]), item.joint),) if item.foot == "ground" else ()
     return Generated(tuple(parts), grounds)
 

@@ -17,7 +17,7 @@ from mbla.deck.quantities import Count, Length, PlanePoint, PositiveLength, Posi
 from mbla.deck.section import given, rule
 from mbla.deck.suggestions import listed
 from mbla.errors import Finding
-from mbla.model.blocks.generated import Generated, ItemContext, Part
+from mbla.model.blocks.generated import Generated, ItemContext, ItemPart
 from mbla.model.blocks.item import AnyItem, ItemKind, register_item
 from mbla.model.solids.polyhedra import cuboids
 
@@ -76,7 +76,7 @@ def generate(item: StackItem, context: ItemContext) -> Generated:
     heights = item.block[2] * np.arange(item.count + 1)
     least = np.column_stack([shifts, heights[:-1]])
     greatest = np.column_stack([shifts + item.block[:2], heights[1:]])
-    return Generated((Part(cuboids(least, greatest), labels={"drum": np.arange(item.count)}),))
+    return Generated((ItemPart(cuboids(least, greatest), labels={"drum": np.arange(item.count)}),))
 
 
 def _shifts(item: StackItem) -> FloatArray:

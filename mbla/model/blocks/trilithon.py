@@ -11,7 +11,7 @@ from mbla.deck.positions import UNIT
 from mbla.deck.quantities import PositiveLength
 from mbla.deck.section import rule
 from mbla.errors import Finding
-from mbla.model.blocks.generated import Generated, ItemContext, Part
+from mbla.model.blocks.generated import Generated, ItemContext, ItemPart
 from mbla.model.blocks.item import AnyItem, ItemKind, register_item
 from mbla.model.solids.polyhedra import cuboids
 
@@ -48,8 +48,8 @@ def generate(item: TrilithonItem, context: ItemContext) -> Generated:
     least[0, 2] = upright[2]
     return Generated(
         (
-            Part(cuboids(left, left + upright), member="upright", labels={"unit": np.arange(2)}),
-            Part(cuboids(least, least + lintel), member="lintel"),
+            ItemPart(cuboids(left, left + upright), member="upright", labels={"unit": np.arange(2)}),
+            ItemPart(cuboids(least, least + lintel), member="lintel"),
         )
     )
 

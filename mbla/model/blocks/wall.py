@@ -53,11 +53,11 @@ def generate(item: WallItem, context: ItemContext) -> Generated:
     Raises ItemRefused for openings off the bed joints, lintels and arches without support, buttresses across openings,
     or where nothing is left of the wall.
     """
-    from mbla.model.blocks.masonry.plan import Line
+    from mbla.model.blocks.masonry.plan import WallLine
     from mbla.model.blocks.masonry.walls import Walls, build_walls
 
     thickness = item.leaves * item.unit[1]
-    line = Line(np.zeros(2), np.array([1.0, 0.0]), item.length, 0.0, 0.0, 0.0, thickness, ())
+    line = WallLine(np.zeros(2), np.array([1.0, 0.0]), item.length, 0.0, 0.0, 0.0, thickness, ())
     walls = Walls(
         item,
         [line],

@@ -28,7 +28,7 @@ from mbla.model.blocks.masonry.masonry import (
 )
 
 if TYPE_CHECKING:
-    from mbla.model.blocks.masonry.plan import Line
+    from mbla.model.blocks.masonry.plan import WallLine
 
 
 class CrossWall(Section):
@@ -157,7 +157,7 @@ def generate(item: WallsItem, context: ItemContext) -> Generated:
     return build_walls(walls, item.group or "walls", context)
 
 
-def lines_of(item: WallsItem) -> list[Line]:
+def lines_of(item: WallsItem) -> list[WallLine]:
     """Walls of the main line, then the cross walls, ends still free where they meet other walls."""
     from mbla.model.blocks.masonry.plan import line_along, reaching_through, turned_corners
 

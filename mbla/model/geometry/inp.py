@@ -54,7 +54,7 @@ class _Card:
 
 
 @dataclass
-class _Content:
+class _InpMesh:
     """The mesh as read: nodes by number, elements by number with type, nodes and set, members of sets in their order.
 
     Members may be ranges: a line can name more elements than any file has.
@@ -71,7 +71,7 @@ def read_inp(path: Path) -> Geometry:
     Raises GeometryFileError for malformed lines, with their number, and for cards that are not followed.
     """
     text = path.read_text(encoding="utf-8", errors="replace")
-    content = _Content()
+    content = _InpMesh()
     for card in _cards(text):
         _read_card(content, card)
     if text.strip() and not content.nodes and not content.elements:
@@ -126,7 +126,7 @@ def _cards(text: str) -> Iterator[_Card]:
         yield card
 
 
-def _read_card(content: _Content, card: _Card) -> None:
+def _read_card(content: _InpMesh, card: _Card) -> None:
     """Cards that are not known are passed over; a misspelt one would lose its blocks."""
     if card.keyword in REFUSED:
         words = f"line {card.line}: *{card.keyword} is not followed: {REFUSED[card.keyword]}"
@@ -153,7 +153,7 @@ def _unreadable(line: int, error: object) -> GeometryFileError:
     return GeometryFileError("geometry-file", f"line {line} cannot be read: {error}")
 
 
-def _read_node(content: _Content, fields: list[str]) -> None:
+def _read_node(content: _InpMesh, fields: list[str]) -> None:
     """A number given twice is one node only where both lie at one place."""
     if len(fields) != 4:
         raise ValueError(f"a node has its number and three coordinates, here are {len(fields)} fields")
@@ -162,7 +162,7 @@ def _read_node(content: _Content, fields: list[str]) -> None:
         raise ValueError(f"node {node} lies elsewhere in an earlier line")
 
 
-def _read_elements(content: _Content, card: _Card) -> None:
+def _read_elements(content: _InpMesh, card: _Card) -> None:
     """Elements of one type; one may go on over several lines."""
     kind, name = card.options.get("TYPE", "").upper(), card.options.get("ELSET", "")
     match = SOLIDS.match(kind) or SHELLS.match(kind)
@@ -186,7 +186,7 @@ def _read_elements(content: _Content, card: _Card) -> None:
         raise GeometryFileError("geometry-file", words)
 
 
-def _read_members(content: _Content, card: _Card, fields: list[str]) -> None:
+def _read_members(content: _InpMesh, card: _Card, fields: list[str]) -> None:
     """Members of ``*ELSET``: numbers, ranges with GENERATE, or names of earlier sets."""
     members = content.sets.setdefault(card.options.get("ELSET", ""), {})
     if "GENERATE" in card.options:
@@ -198,7 +198,7 @@ def _read_members(content: _Content, card: _Card, fields: list[str]) -> None:
         members.update(own)
 
 
-def _set_of_elements(content: _Content) -> dict[int, str]:
+def _set_of_elements(content: _InpMesh) -> dict[int, str]:
     """Name of the smallest set that each element is in; of equal ones that of an ``*ELSET`` card."""
     found: dict[tuple[bool, str], list[int]] = {}
     for name, members in content.sets.items():

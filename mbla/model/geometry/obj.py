@@ -29,7 +29,7 @@ LEFT_OUT = {"l": "line", "p": "point", "curv": "curve", "curv2": "curve", "surf"
 
 
 @dataclass
-class _Content:
+class _ObjMesh:
     """The file as read: vertices, faces as rows of them, and the row of the object and group name at each face.
 
     names      : of objects (``o``) and groups (``g``); what precedes the first of them is row 0
@@ -52,7 +52,7 @@ def read_obj(path: Path) -> Geometry:
 
     Raises GeometryFileError for malformed lines, with their number.
     """
-    content = _Content()
+    content = _ObjMesh()
     for number, line in _lines(path):
         keyword, _, rest = line.partition(" ")
         try:
@@ -72,7 +72,7 @@ def read_obj(path: Path) -> Geometry:
     return Geometry(polyhedra, notices, tuple(names[row] for row in present) if len(names) > 1 else ())
 
 
-def _unused(content: _Content) -> tuple[Notice, ...]:
+def _unused(content: _ObjMesh) -> tuple[Notice, ...]:
     """Vertices without faces and objects with vertices of their own and without a face.
 
     Vertices come before the faces that use them: a file that ends with vertices lacks faces, and is refused.
@@ -100,7 +100,7 @@ def _lines(path: Path) -> Iterator[tuple[int, str]]:
             joined = ""
 
 
-def _read_line(content: _Content, keyword: str, rest: str) -> None:
+def _read_line(content: _ObjMesh, keyword: str, rest: str) -> None:
     if keyword == "v":
         fields = rest.split()
         if len(fields) < 3:

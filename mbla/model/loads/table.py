@@ -13,7 +13,7 @@ from mbla.deck.suggestions import did_you_mean, listed
 from mbla.errors import DeckError, Message
 from mbla.model.applied_load import AppliedLoad, sum_on_blocks, wrenches_of
 from mbla.model.loads.load_kind import Entry, LoadKind, LoadSite
-from mbla.model.tables import Table, TableRefused, read_table
+from mbla.model.tables import CsvTable, TableRefused, read_table
 from mbla.model.wording import counted
 
 FORCE, POINT, MOMENT = ("fx", "fy", "fz"), ("x", "y", "z"), ("mx", "my", "mz")
@@ -49,7 +49,7 @@ def table_load(entry: Entry, blocks: IntArray | None, site: LoadSite) -> Applied
     return AppliedLoad(acted_on, total, words)
 
 
-def _numbers(table: Table) -> tuple[FloatArray, FloatArray | None, FloatArray]:
+def _numbers(table: CsvTable) -> tuple[FloatArray, FloatArray | None, FloatArray]:
     """Forces, points where they act unless at the centroids, and moments; (n, 3) each."""
     given = [name for name in POINT if name in table.columns]
     if given and len(given) < len(POINT):
@@ -62,7 +62,7 @@ def _numbers(table: Table) -> tuple[FloatArray, FloatArray | None, FloatArray]:
     return table.numbers(FORCE), table.numbers(POINT) if given else None, moments
 
 
-def _blocks(table: Table, site: LoadSite) -> IntArray | None:
+def _blocks(table: CsvTable, site: LoadSite) -> IntArray | None:
     """Block of each row, (n,); None where a group could not be built."""
     found: list[int | None] = []
     groups = site.selection.members

@@ -12,7 +12,7 @@ from mbla.model.wording import vector
 
 
 @dataclass(frozen=True)
-class Surface:
+class GroundSurface:
     """A flat surface of no thickness.
 
     outline : (n, 3) corners in order, either way round, in one plane

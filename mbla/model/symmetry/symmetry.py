@@ -17,7 +17,7 @@ from mbla.arrays import FloatArray, IntArray
 from mbla.deck.deck import Deck
 from mbla.errors import DeckError, KeyPath, Notice
 from mbla.model.applied_load import AppliedLoad
-from mbla.model.fill import Fill
+from mbla.model.fill import CarriedFill
 from mbla.model.guides import Guides
 from mbla.model.join import polyhedra_of
 from mbla.model.model import Ground, LoadCase, Model, Pushing
@@ -79,7 +79,7 @@ def _mirrored(model: Model, mirror: MirrorPlane, tolerance: float) -> Model:
     fill = model.fill
     if fill is not None:
         of_fill = _both_masses(built.blocks, fill.masses, fill.points, mirror)
-        fill = Fill(*of_fill, tuple(f"{words}; with its mirror image twice as much" for words in fill.words))
+        fill = CarriedFill(*of_fill, tuple(f"{words}; with its mirror image twice as much" for words in fill.words))
     return replace(
         model,
         blocks=replace(built.blocks, added_masses=masses, added_mass_points=points),

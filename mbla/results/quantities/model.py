@@ -7,7 +7,7 @@ from collections.abc import Iterable
 import numpy as np
 
 from mbla.arrays import FloatArray, IntArray, starts
-from mbla.model.fill import Fill
+from mbla.model.fill import CarriedFill
 from mbla.model.guides import Guides
 from mbla.model.model import Ground, Joint, Model
 from mbla.results.quantities.group import Field, Group
@@ -18,7 +18,7 @@ GROUNDS = Group[tuple[Ground, ...]](lambda scene: scene.model.grounds, file="mod
 GUIDES = Group[Guides](
     lambda scene: scene.model.guides if len(scene.model.guides) else None, file="model", part="guides"
 )
-FILL = Group[Fill](lambda scene: scene.model.fill, file="model", part="fill")
+FILL = Group[CarriedFill](lambda scene: scene.model.fill, file="model", part="fill")
 
 MODEL.fields(
     Model,
@@ -125,7 +125,7 @@ GUIDES.fields(
     guide_words=Field("guides in words", "guide", attribute="words"),
 )
 FILL.fields(
-    Fill,
+    CarriedFill,
     fill_masses=Field("mass of the fill on the block, part of added_masses", "block", unit="mass", attribute="masses"),
     fill_points=Field("centroid of that mass", "block axis", unit="length", attribute="points"),
     fill_words=Field("fills in words", "fill", attribute="words"),

@@ -12,7 +12,7 @@ from typing import Annotated, Any, Literal, TypeAlias
 from pydantic import BeforeValidator, Field
 
 from mbla.deck.content import no_boolean
-from mbla.deck.quantities import NAME_PATTERN, Integer, Line, Name, Number, PositiveNumber, Quantity, Switch, Time
+from mbla.deck.quantities import NAME_PATTERN, Integer, Line, Name, Number, PositiveNumber, RealNumber, Switch, Time
 from mbla.deck.section import ByShape, Section
 from mbla.errors import KeyPath
 
@@ -31,8 +31,8 @@ RANDOM = (*DISTRIBUTIONS, "whole", *DIRECTIONS)
 SAMPLED = ("random", "latin_hypercube", "sobol")
 """parts of the design whose points are drawn"""
 
-Degrees: TypeAlias = Annotated[float, Quantity("number", ge=-360, le=360)]
-Elevation: TypeAlias = Annotated[float, Quantity("number", ge=-90, le=90)]
+Degrees: TypeAlias = Annotated[float, RealNumber("number", ge=-360, le=360)]
+Elevation: TypeAlias = Annotated[float, RealNumber("number", ge=-90, le=90)]
 Points: TypeAlias = Annotated[int, Integer(ge=1, le=MAX_POINTS)]
 Seed: TypeAlias = Annotated[int, Integer(ge=0, le=2**32 - 1)]
 ParameterName: TypeAlias = Annotated[str, Field(pattern=NAME_PATTERN, max_length=200)]
@@ -174,7 +174,7 @@ class LimitsSection(Section):
     """What one point may take; one that takes more has failed."""
 
     time: Time | None = Field(None, description="seconds by the clock")
-    memory: Annotated[float, Quantity("number", gt=0)] | None = Field(
+    memory: Annotated[float, RealNumber("number", gt=0)] | None = Field(
         None, description="MB above what the process holds with the base deck"
     )
 
@@ -197,7 +197,7 @@ class FragilitySection(Section):
         description="result column; without dilatancy `least_load_factor`, named in `results`, is that to design with",
     )
     demand: Annotated[list[Number], Field(min_length=1)] = Field(description="demands")
-    confidence: Annotated[float, Quantity("number", gt=0, lt=1)] = Field(0.95, description="of the interval")
+    confidence: Annotated[float, RealNumber("number", gt=0, lt=1)] = Field(0.95, description="of the interval")
 
 
 class SweepContent(Section):

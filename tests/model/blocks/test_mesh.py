@@ -5,7 +5,7 @@ from typing import Any
 
 import pytest
 
-from mbla.model.blocks.generated import ItemContext, ItemRefused, Part
+from mbla.model.blocks.generated import ItemContext, ItemPart, ItemRefused
 from mbla.model.blocks.mesh import MeshItem, generate
 from mbla.model.solids.build import BuiltBlocks
 from tests.model.shapes import box, build_raw
@@ -32,7 +32,7 @@ def test_mesh_is_scaled(tmp_path: Path) -> None:
     assert built.blocks.centroids[2] == pytest.approx([0.045, 0.005, 0.005])
 
 
-def made(folder: Path, text: str, deck_length: str = "m", **keys: Any) -> tuple[BuiltBlocks, Part, list[str]]:
+def made(folder: Path, text: str, deck_length: str = "m", **keys: Any) -> tuple[BuiltBlocks, ItemPart, list[str]]:
     (folder / "x.obj").write_text(text)
     context = ItemContext(1e-3, lambda path, name: folder / name, deck_length)
     generated = generate(MeshItem.model_validate({"material": "stone", "file": "x.obj"} | keys), context)

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from mbla.model.blocks.generated import ItemContext, ItemRefused, Part
+from mbla.model.blocks.generated import ItemContext, ItemPart, ItemRefused
 from mbla.model.blocks.table import TableItem, generate
 from tests.model.shapes import box, build_raw
 
@@ -19,7 +19,7 @@ FACES = "block,face,v1,v2,v3,v4\n" + "".join(
 )
 
 
-def part(folder: Path, vertices: str = VERTICES, faces: str = FACES) -> Part:
+def part(folder: Path, vertices: str = VERTICES, faces: str = FACES) -> ItemPart:
     (folder / "v.csv").write_text(vertices)
     (folder / "f.csv").write_text(faces)
     item = TableItem(material="stone", vertices="v.csv", faces="f.csv")

@@ -17,7 +17,7 @@ from mbla.deck.quantities import Length, PositiveLength
 from mbla.deck.section import Section
 from mbla.errors import Finding
 from mbla.model.blocks.arches.sections import ArchSection, springing_joints, units_across
-from mbla.model.blocks.generated import GroundPart, ItemRefused, Part, level_ground
+from mbla.model.blocks.generated import GroundPart, ItemPart, ItemRefused, level_ground
 
 
 class Backing(Section):
@@ -48,7 +48,7 @@ ON_BASE = 1e-9
 
 def haunches(
     backing: Backing, section: ArchSection, piers: float | None, across: Callable[[int], FloatArray], shear: float = 0.0
-) -> tuple[Part, tuple[GroundPart, ...]]:
+) -> tuple[ItemPart, tuple[GroundPart, ...]]:
     """Blocks of the haunches, and level ground under those at their base, which counts blocks from the first of theirs.
 
     piers  : width of piers that carry them, None for ground
@@ -82,7 +82,7 @@ def haunches(
         on_base = np.array([_stands(each, min(base), max(base), height, ON_BASE * top) for each in polygons])
         if on_base.any():
             grounds.append(level_ground(np.flatnonzero(on_base[block]), None, (base[0], 0.0, height)))
-    part = Part(made, member="backing", labels={"course": course[block], "unit": unit[block]})
+    part = ItemPart(made, member="backing", labels={"course": course[block], "unit": unit[block]})
     return part, tuple(grounds)
 
 

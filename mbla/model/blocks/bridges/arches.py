@@ -25,7 +25,7 @@ from mbla.model.blocks.arches.sections import (
     voussoir_polygons,
 )
 from mbla.model.blocks.curves import Curve, named_curve
-from mbla.model.blocks.generated import ItemRefused, Part
+from mbla.model.blocks.generated import ItemPart, ItemRefused
 
 if TYPE_CHECKING:
     from mbla.model.blocks.bridge import BridgeItem
@@ -42,9 +42,11 @@ class BridgeFrame:
     right: float
 
 
-def part_through(member: str, polygons: list[FloatArray], across: Sequence[float], labels: dict[str, IntArray]) -> Part:
+def part_through(
+    member: str, polygons: list[FloatArray], across: Sequence[float], labels: dict[str, IntArray]
+) -> ItemPart:
     """Blocks of one member of the bridge from their polygons; ``across`` are both their ends along y, labels (n,)."""
-    return Part(through(polygons, across), member=member, labels=labels)
+    return ItemPart(through(polygons, across), member=member, labels=labels)
 
 
 def frame_of(item: BridgeItem) -> BridgeFrame:
@@ -102,7 +104,7 @@ def _pier_springer(left: SpringingJoint, right: SpringingJoint) -> FloatArray | 
     return np.stack([left.intrados, right.intrados, right.extrados, left.extrados])
 
 
-def arches(item: BridgeItem, frame: BridgeFrame) -> list[Part]:
+def arches(item: BridgeItem, frame: BridgeFrame) -> list[ItemPart]:
     """Voussoirs span by span."""
     rows = []
     for span, section in enumerate(frame.sections):
@@ -112,7 +114,7 @@ def arches(item: BridgeItem, frame: BridgeFrame) -> list[Part]:
     return rows
 
 
-def supports(item: BridgeItem, frame: BridgeFrame) -> list[Part]:
+def supports(item: BridgeItem, frame: BridgeFrame) -> list[ItemPart]:
     """Piers and abutments under the springings, course by course, and the springer blocks on them."""
     rows = []
     if item.piers is not None:
@@ -128,7 +130,7 @@ def supports(item: BridgeItem, frame: BridgeFrame) -> list[Part]:
     return rows
 
 
-def _stacks(item: BridgeItem, member: str, ends: list[tuple[float, float]], height: float, count: int) -> Part:
+def _stacks(item: BridgeItem, member: str, ends: list[tuple[float, float]], height: float, count: int) -> ItemPart:
     polygons = stacks([(left, right, 0.0) for left, right in ends], height, count)
     number = np.arange(len(polygons))
     labels = {"course": number // len(ends), "unit": number % len(ends)}

@@ -20,14 +20,14 @@ from mbla.model.blocks.arches.spandrels import (
     coursed,
 )
 from mbla.model.blocks.bridges.arches import BridgeFrame, part_through
-from mbla.model.blocks.generated import ItemRefused, Part
+from mbla.model.blocks.generated import ItemPart, ItemRefused
 from mbla.model.solids.polyhedra import prisms
 
 if TYPE_CHECKING:
     from mbla.model.blocks.bridge import BridgeItem
 
 
-def masonry(item: BridgeItem, frame: BridgeFrame) -> list[Part]:
+def masonry(item: BridgeItem, frame: BridgeFrame) -> list[ItemPart]:
     """Spandrels, backing and parapets of a bridge that has spandrels."""
     assert item.unit is not None  # rules of the deck
     assert item.cover is not None
@@ -56,7 +56,7 @@ def _outline(frame: BridgeFrame) -> Outline:
     return build_outline([np.array(left), *chains, np.array(right)])
 
 
-def _in_place(item: BridgeItem, polygons: list[FloatArray], labels: dict[str, IntArray]) -> list[Part]:
+def _in_place(item: BridgeItem, polygons: list[FloatArray], labels: dict[str, IntArray]) -> list[ItemPart]:
     """Through the full width; or a wall along each face, and backing between them in the lowest courses."""
     if item.spandrel_thickness is None:
         return [part_through("spandrel", polygons, (0.0, item.width), labels)]
@@ -71,14 +71,14 @@ def _in_place(item: BridgeItem, polygons: list[FloatArray], labels: dict[str, In
 
 def _along_both_faces(
     item: BridgeItem, member: str, polygons: list[FloatArray], labels: dict[str, IntArray], thickness: float
-) -> Part:
+) -> ItemPart:
     count = len(polygons)
     across = np.repeat([[0.0, thickness], [item.width - thickness, item.width]], count, axis=0)
     both = {name: np.tile(values, 2) for name, values in labels.items()} | {"leaf": np.repeat([0, 1], count)}
-    return Part(prisms(polygons * 2, across), member=member, labels=both)
+    return ItemPart(prisms(polygons * 2, across), member=member, labels=both)
 
 
-def _parapets(item: BridgeItem, frame: BridgeFrame, laid: CoursedMasonry, top: float, course: int) -> Part:
+def _parapets(item: BridgeItem, frame: BridgeFrame, laid: CoursedMasonry, top: float, course: int) -> ItemPart:
     """One course on both faces, in bond with the course under it."""
     assert item.parapets is not None
     height = item.parapets.height

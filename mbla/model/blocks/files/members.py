@@ -21,7 +21,7 @@ from mbla.model.geometry.sheets import NotFlatError, flat_outlines, sheets
 from mbla.model.geometry.welding import take_faces, weld
 from mbla.model.solids.measures import connected_labels
 from mbla.model.solids.polyhedra import Polyhedra, join_polyhedra, take_polyhedra
-from mbla.model.solids.surface import Surface
+from mbla.model.solids.surface import GroundSurface
 
 if TYPE_CHECKING:
     from mbla.model.blocks.mesh import MeshItem
@@ -79,7 +79,9 @@ def placed_vertices(geometry: Geometry, item: GeometryFile, length: str, extrude
     return np.asarray(vertices @ UPRIGHT.T) if item.up == "y" else vertices
 
 
-def split_off_supports(geometry: Geometry, item: MeshItem, tolerance: float) -> tuple[Geometry, tuple[Surface, ...]]:
+def split_off_supports(
+    geometry: Geometry, item: MeshItem, tolerance: float
+) -> tuple[Geometry, tuple[GroundSurface, ...]]:
     """The file's blocks, and the surfaces among them that are supports; flat faces that are left out are in neither.
 
     Raises ItemRefused for supports that are closed, or not flat, and where no block is left.
@@ -113,10 +115,10 @@ def split_off_supports(geometry: Geometry, item: MeshItem, tolerance: float) -> 
     return taken(geometry, np.flatnonzero(~gone)), surfaces
 
 
-def surfaces_of_sheets(geometry: Geometry, key: str, tolerance: float) -> tuple[Surface, ...]:
+def surfaces_of_sheets(geometry: Geometry, key: str, tolerance: float) -> tuple[GroundSurface, ...]:
     """The flat surfaces that sheets consist of, by the names of their objects; raises ItemRefused at a key."""
     names = geometry.names or ("",) * len(geometry.polyhedra)
-    found: list[Surface] = []
+    found: list[GroundSurface] = []
     for row, name in enumerate(names):
         try:
             outlines = flat_outlines(take_polyhedra(geometry.polyhedra, np.array([row])), tolerance)
@@ -124,7 +126,7 @@ def surfaces_of_sheets(geometry: Geometry, key: str, tolerance: float) -> tuple[
             raise ItemRefused(Finding(error.message.identifier, f"surface {name}: {error}", key)) from error
         if not outlines:
             raise ItemRefused(Finding("surface-unfit", f"surface {name} has no area", key))
-        found += [Surface(outline, member_name(name)) for outline in outlines]
+        found += [GroundSurface(outline, member_name(name)) for outline in outlines]
     return tuple(found)
 
 

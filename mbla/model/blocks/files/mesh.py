@@ -12,7 +12,7 @@ from mbla.arrays import FloatArray
 from mbla.deck.section import given
 from mbla.errors import Finding, Notice
 from mbla.model.blocks.files.members import members_of, placed_vertices, read_members, split_off_supports, taken
-from mbla.model.blocks.generated import Generated, ItemContext, ItemRefused, Part
+from mbla.model.blocks.generated import Generated, ItemContext, ItemPart, ItemRefused
 from mbla.model.geometry.cells import join_cells, joinable_tetrahedra
 from mbla.model.geometry.geometry import Geometry, member_name
 from mbla.model.geometry.repair import repair
@@ -47,7 +47,7 @@ def read_mesh(item: MeshItem, context: ItemContext) -> Generated:
     members = [member_name(name) for name in blocks.names]
     remarks = (*loose, *blocks.notices, *_taken_for_granted(item, geometry, context, vertices))
     notices = tuple(replace(notice, message=f"{item.file}: {notice.message}") for notice in remarks)
-    part = Part(blocks.polyhedra, member=members if any(members) else "")
+    part = ItemPart(blocks.polyhedra, member=members if any(members) else "")
     return Generated((part,), surfaces=surfaces, notices=notices)
 
 

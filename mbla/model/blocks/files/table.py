@@ -12,10 +12,10 @@ import numpy as np
 from mbla.arrays import FloatArray
 from mbla.errors import Finding, Message
 from mbla.model.blocks.files.members import members_of, taken
-from mbla.model.blocks.generated import Generated, ItemContext, ItemRefused, Part
+from mbla.model.blocks.generated import Generated, ItemContext, ItemPart, ItemRefused
 from mbla.model.geometry.geometry import Geometry, member_name
 from mbla.model.solids.polyhedra import polyhedra_from_lists
-from mbla.model.tables import Table, TableRefused, read_table
+from mbla.model.tables import CsvTable, TableRefused, read_table
 
 if TYPE_CHECKING:
     from mbla.model.blocks.table import TableItem
@@ -34,7 +34,7 @@ def read_blocks(item: TableItem, context: ItemContext) -> Generated:
         for files that are missing or outside the deck's folder
     """
     findings: list[Finding] = []
-    tables: dict[str, Table] = {}
+    tables: dict[str, CsvTable] = {}
     for key, columns in COLUMNS.items():
         with _collected(findings, key):
             file = context.resolve_file((key,), getattr(item, key))
@@ -56,12 +56,12 @@ def read_blocks(item: TableItem, context: ItemContext) -> Generated:
     members = [member_name(name) for name in blocks]
     everything = Geometry(polyhedra_from_lists(points, faces), names=tuple(blocks), cells=True)
     if item.leave_out is None:
-        return Generated((Part(everything.polyhedra, member=members),))
+        return Generated((ItemPart(everything.polyhedra, member=members),))
     rows = members_of(everything, item.leave_out, "leave_out", "the tables have")
     left = taken(everything, np.setdiff1d(np.arange(len(members)), rows))
     if not len(left.polyhedra):
         raise ItemRefused(Finding("geometry-without-blocks", "leaves no block: all are left out", "leave_out"))
-    return Generated((Part(left.polyhedra, member=[member_name(name) for name in left.names]),))
+    return Generated((ItemPart(left.polyhedra, member=[member_name(name) for name in left.names]),))
 
 
 @contextmanager
@@ -81,7 +81,7 @@ class _Block:
     faces: list[list[str]] = field(default_factory=list)
 
 
-def _blocks(vertices: Table, faces: Table) -> dict[str, _Block]:
+def _blocks(vertices: CsvTable, faces: CsvTable) -> dict[str, _Block]:
     """Blocks by name in the order of their first vertices; the tables report what is wrong."""
     blocks: dict[str, _Block] = {}
     points, names = vertices.numbers("xyz"), zip(vertices.columns["block"], vertices.columns["vertex"], strict=True)

@@ -13,7 +13,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.errors import Finding
-from mbla.model.blocks.generated import Part
+from mbla.model.blocks.generated import ItemPart
 from mbla.model.blocks.masonry.courses import blocks_in, prisms_in
 from mbla.model.blocks.masonry.leg import NO_UNIT, Leg, Passage, Slopes, Void
 from mbla.model.blocks.masonry.masonry import Buttress, Masonry, Opening, OpeningArch
@@ -123,7 +123,7 @@ def check_wall(
         yield from (Finding("wall-shape", words, "buttresses", placed.number) for words in found)
 
 
-def spans_of(leg: Leg, placed: Sequence[PlacedOpening]) -> Iterator[Part]:
+def spans_of(leg: Leg, placed: Sequence[PlacedOpening]) -> Iterator[ItemPart]:
     """Lintels and voussoirs of a wall, one part for each opening that has them."""
     for each in placed:
         if each.span is None:
@@ -133,13 +133,13 @@ def spans_of(leg: Leg, placed: Sequence[PlacedOpening]) -> Iterator[Part]:
             box = np.array([[each.span.left, each.span.right, low, high]])
             made = blocks_in(leg, box, np.array([[0.0, leg.thickness]]))
             labels = {"course": np.array([each.span.bottom])}
-            yield Part(made, member="lintel", labels=labels, material=each.opening.lintel.material)
+            yield ItemPart(made, member="lintel", labels=labels, material=each.opening.lintel.material)
         if each.opening.arch is not None:
             outlines = voussoir_outlines(each.opening.arch, each.span, low, high)
             n = len(outlines)
             made = prisms_in(leg, list(outlines), np.tile([0.0, leg.thickness], (n, 1)))
             labels = {"course": np.full(n, each.span.bottom), "voussoir": np.arange(n)}
-            yield Part(made, member="voussoir", labels=labels, material=each.opening.arch.material)
+            yield ItemPart(made, member="voussoir", labels=labels, material=each.opening.arch.material)
 
 
 def voussoir_outlines(arch: OpeningArch, room: Void, low: float, high: float) -> FloatArray:

@@ -9,7 +9,7 @@ import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.deck.positions import NONE
-from mbla.model.blocks.generated import Part
+from mbla.model.blocks.generated import ItemPart
 from mbla.model.blocks.masonry.bonds import (
     ROUNDING,
     Pattern,
@@ -161,7 +161,7 @@ def _clear_of(distance: FloatArray, slope: float, least: float, unit: float) -> 
     return steep | under
 
 
-def units_of(leg: Leg) -> Part:
+def units_of(leg: Leg) -> ItemPart:
     """All units of a wall: course by course from the bottom, along it, leaf by leaf."""
     boxes, rows, through, outlines, start = [], [], [], {}, 0
     for course, units in enumerate(lay_courses(leg)):
@@ -177,7 +177,7 @@ def units_of(leg: Leg) -> Part:
 
 def _in_leaves(
     leg: Leg, boxes: FloatArray, rows: IntArray, through: BoolArray, outlines: dict[int, FloatArray]
-) -> Part:
+) -> ItemPart:
     """Units split into leaves where they do not go through; boxes (n, 4) are ends along the wall and heights."""
     leaves, thickness = leg.item.leaves, leg.item.unit[1]
     counts = np.where(through, 1, leaves)
@@ -189,7 +189,7 @@ def _in_leaves(
     labels = {"course": rows[unit, 0], "unit": rows[unit, 1], "leaf": np.where(header, NONE, leaf)}
     member = np.where(header & (not leg.member), "header", leg.member)
     member = np.where(rows[unit, 0] >= leg.level_courses, leg.top_member, member)
-    return Part(blocks_in(leg, boxes[unit], across, cut), member=member.tolist(), labels=labels)
+    return ItemPart(blocks_in(leg, boxes[unit], across, cut), member=member.tolist(), labels=labels)
 
 
 def blocks_in(leg: Leg, boxes: FloatArray, across: FloatArray, cut: Sequence[tuple[int, FloatArray]] = ()) -> Polyhedra:

@@ -18,7 +18,7 @@ from mbla.deck.quantities import (
     NonNegativeLength,
     PlanePoint,
     PositiveLength,
-    Quantity,
+    RealNumber,
     Switch,
 )
 from mbla.deck.section import ROUNDING, Section, rule
@@ -68,13 +68,13 @@ class Irregular(Section):
     """Random units, the same on every machine: numpy's PCG64 generator, seeded."""
 
     seed: Index = Field(description="another number, another wall")
-    variation: Annotated[float, Quantity("number", ge=0, le=0.5)] = Field(
+    variation: Annotated[float, RealNumber("number", ge=0, le=0.5)] = Field(
         description="of the lengths of units, as a share of the length: uniform between 1 - variation and 1 + variation"
     )
-    heights: Annotated[float, Quantity("number", ge=0, le=0.5)] = Field(
+    heights: Annotated[float, RealNumber("number", ge=0, le=0.5)] = Field(
         0.0, description="the same of the heights of courses; heads and sills of openings stay where they are"
     )
-    overlap: Annotated[float, Quantity("number", gt=0, le=0.25)] = Field(
+    overlap: Annotated[float, RealNumber("number", gt=0, le=0.25)] = Field(
         0.2, description="least distance of perpends from those of the course below, as a share of the unit length"
     )
 

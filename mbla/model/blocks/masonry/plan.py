@@ -22,7 +22,7 @@ SAME_PLACE = 1e-6
 
 
 @dataclass(frozen=True)
-class Line:
+class WallLine:
     """A wall of a plan.
 
     start   : (2,) of its line; along: (2,) its direction; length: of its line
@@ -72,7 +72,7 @@ class Line:
         return float(places[0]), float(places[1])
 
 
-def turned_corners(lines: Sequence[Line], middle: float, *, closed: bool) -> list[Line]:
+def turned_corners(lines: Sequence[WallLine], middle: float, *, closed: bool) -> list[WallLine]:
     """Walls of a line that turns by right angles, each reaching to the far side of its corners.
 
     middle : offset of their middle to the left of the line
@@ -88,14 +88,14 @@ def turned_corners(lines: Sequence[Line], middle: float, *, closed: bool) -> lis
     return turned
 
 
-def line_along(start: FloatArray, end: FloatArray, middle: float, thickness: float, key: KeyPath) -> Line:
+def line_along(start: FloatArray, end: FloatArray, middle: float, thickness: float, key: KeyPath) -> WallLine:
     """The wall along a line, (2,) each, by the offset of its middle to the left of it; its ends are free."""
     length = float(np.abs(end - start).max())
     along = np.round((end - start) / length)
-    return Line(start, along, length, 0.0, 0.0, middle - thickness / 2, thickness, key)
+    return WallLine(start, along, length, 0.0, 0.0, middle - thickness / 2, thickness, key)
 
 
-def reaching_through(line: Line, lines: Sequence[Line]) -> Line:
+def reaching_through(line: WallLine, lines: Sequence[WallLine]) -> WallLine:
     """A cross wall whose ends, where they lie on another wall, reach to that wall's far face."""
     room = SAME_PLACE * line.thickness
     before, after = 0.0, 0.0
@@ -115,7 +115,7 @@ def _inside(point: FloatArray, box: FloatArray) -> bool:
     return bool((point >= box[0]).all() and (point <= box[1]).all())
 
 
-def passages_of(lines: Sequence[Line], courses: int) -> list[tuple[tuple[int, Passage], ...]]:
+def passages_of(lines: Sequence[WallLine], courses: int) -> list[tuple[tuple[int, Passage], ...]]:
     """For each wall the walls that it shares a square with, by number, and where."""
     found: list[list[tuple[int, Passage]]] = [[] for _ in lines]
     for first, second, box in _shared(lines):
@@ -124,7 +124,7 @@ def passages_of(lines: Sequence[Line], courses: int) -> list[tuple[tuple[int, Pa
     return [tuple(sorted(each, key=lambda entry: entry[1].left)) for each in found]
 
 
-def check_plan(lines: Sequence[Line]) -> Iterator[Finding]:
+def check_plan(lines: Sequence[WallLine]) -> Iterator[Finding]:
     """Walls meet in full squares, and do not lie on each other; key paths below the item."""
     for first, second, box in _shared(lines):
         room = SAME_PLACE * lines[first].thickness
@@ -135,7 +135,7 @@ def check_plan(lines: Sequence[Line]) -> Iterator[Finding]:
             yield Finding("wall-shape", message, *lines[second].key)
 
 
-def _shared(lines: Sequence[Line]) -> Iterator[tuple[int, int, FloatArray]]:
+def _shared(lines: Sequence[WallLine]) -> Iterator[tuple[int, int, FloatArray]]:
     """Pairs of walls whose plans overlap, and the box that they share."""
     corners = [line.corners() for line in lines]
     for second in range(len(lines)):

@@ -9,7 +9,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.errors import Finding
-from mbla.model.blocks.generated import Generated, ItemContext, ItemRefused, Part
+from mbla.model.blocks.generated import Generated, ItemContext, ItemPart, ItemRefused
 from mbla.model.blocks.masonry.additions import (
     PlacedButtress,
     PlacedOpening,
@@ -25,7 +25,7 @@ from mbla.model.blocks.masonry.bonds import random_levels
 from mbla.model.blocks.masonry.courses import units_of
 from mbla.model.blocks.masonry.leg import Leg, Passage, Slopes
 from mbla.model.blocks.masonry.masonry import Buttress, Gable, Masonry, Opening
-from mbla.model.blocks.masonry.plan import Line, check_plan, passages_of
+from mbla.model.blocks.masonry.plan import WallLine, check_plan, passages_of
 from mbla.model.blocks.masonry.unspanned import unspanned
 
 
@@ -39,7 +39,7 @@ class Walls:
     """
 
     item: Masonry
-    lines: Sequence[Line]
+    lines: Sequence[WallLine]
     openings: Sequence[tuple[int, Opening]]
     buttresses: Sequence[tuple[int, Buttress]]
     gables: Mapping[int, Gable]
@@ -47,10 +47,10 @@ class Walls:
 
 
 @dataclass(frozen=True)
-class _Wall:
+class _BondedWall:
     """A wall along a line with what belongs to it, and the walls that it shares squares with, by number."""
 
-    line: Line
+    line: WallLine
     openings: list[PlacedOpening]
     buttresses: list[PlacedButtress]
     meets: tuple[tuple[int, Passage], ...]
@@ -72,7 +72,7 @@ def build_walls(given: Walls, name: str, context: ItemContext) -> Generated:
     against = [(n, segment, each) for n, (segment, each) in enumerate(given.buttresses)]
     meets = passages_of(lines, item.courses)
     walls = [
-        _Wall(
+        _BondedWall(
             line,
             [place_opening(item, n, opening, line.before) for n, segment, opening in sound if segment == number],
             [place_buttress(item, n, buttress, line.before) for n, segment, buttress in against if segment == number],
@@ -91,14 +91,14 @@ def build_walls(given: Walls, name: str, context: ItemContext) -> Generated:
     return Generated(tuple(_parts(walls, legs, numbered=given.numbered)), notices=tuple(notices))
 
 
-def _fixed_levels(walls: Sequence[_Wall]) -> list[int]:
+def _fixed_levels(walls: Sequence[_BondedWall]) -> list[int]:
     """Bed joints that random heights of courses leave where they are."""
     voids = [void for wall in walls for opening in wall.openings for void in opening.voids]
     found = [level for void in voids for level in (void.bottom, void.top)]
     return found + [buttress.courses for wall in walls for buttress in wall.buttresses]
 
 
-def _leg(given: Walls, number: int, wall: _Wall, levels: FloatArray) -> Leg:
+def _leg(given: Walls, number: int, wall: _BondedWall, levels: FloatArray) -> Leg:
     """How a wall is laid; where it meets others, or is of a plan, remainders are joined to the next unit."""
     item, line, gable = given.item, wall.line, given.gables.get(number)
     passages = [passage for _, passage in wall.meets]
@@ -130,7 +130,7 @@ def _check_gables(numbers: Sequence[int], meets: Sequence[tuple[tuple[int, Passa
             yield Finding("wall-shape", "meets a wall that has a gable too", "gables", n, "segment")
 
 
-def _parts(walls: Sequence[_Wall], legs: Sequence[Leg], numbered: bool) -> Iterator[Part]:
+def _parts(walls: Sequence[_BondedWall], legs: Sequence[Leg], numbered: bool) -> Iterator[ItemPart]:
     """Blocks of walls: the units of each, then what spans their openings, then the buttresses.
 
     numbered : whether blocks are labelled by the number of their wall

@@ -26,7 +26,7 @@ from mbla.deck.positions import COURSE, SEGMENT, SPAN, UNIT
 from mbla.deck.quantities import PositiveLength
 from mbla.deck.section import ROUNDING, rule
 from mbla.errors import Finding
-from mbla.model.blocks.generated import Generated, Generator, Part, level_ground
+from mbla.model.blocks.generated import Generated, Generator, ItemPart, level_ground
 from mbla.model.blocks.item import SPRINGERS, Amount, ItemKind, register_item
 from mbla.model.blocks.vaults.vault import VaultItem, check_curve, vault_section
 from mbla.model.solids.polyhedra import Polyhedra, chains, join_polyhedra
@@ -151,17 +151,17 @@ def mitred_vault(
     behind : (1, 3, 4, 3) the fixed block behind the springing
     """
     around = {"course": np.repeat(np.arange(section.courses), 4), "segment": np.tile(np.arange(4), section.courses)}
-    parts = [Part(_in_corners(mitred_blocks), member=member, labels=around)]
+    parts = [ItemPart(_in_corners(mitred_blocks), member=member, labels=around)]
     numbers = [(course, span, unit) for units, _, course, span in webs for unit in range(len(units))]
     if numbers:  # all units of a small vault may belong to the groins
         positions = dict(zip(("course", "span", "unit"), np.array(numbers, dtype=np.int64).T, strict=True))
         units = join_polyhedra([reflected(units, corner) for units, corner, _, _ in webs if len(units)])
-        parts.append(Part(units, member="web", labels=positions))
+        parts.append(ItemPart(units, member="web", labels=positions))
     if section.keystone:
-        parts.append(Part(_keystone(section), member="keystone", labels={"course": np.array([section.courses])}))
+        parts.append(ItemPart(_keystone(section), member="keystone", labels={"course": np.array([section.courses])}))
     first = np.flatnonzero(np.concatenate([part.labels["course"] for part in parts]) == 0)
     if item.springers == "blocks":
-        parts.append(Part(_in_corners([behind]), SPRINGERS.suffix, fixed=True, labels={"segment": np.arange(4)}))
+        parts.append(ItemPart(_in_corners([behind]), SPRINGERS.suffix, fixed=True, labels={"segment": np.arange(4)}))
     return Generated(tuple(parts), (level_ground(first, item.joint),) if item.springers == "ground" else ())
 
 
