@@ -77,9 +77,10 @@ def collect_items(deck: Deck, faults: list[Fault]) -> CollectedItems:
             if made > MOST:
                 raise ItemRefused(Finding("too-many-units", f"makes {too_many(made)}"))
         except (ItemRefused, DeckError) as refused:
-            findings = refused.findings if isinstance(refused, ItemRefused) else ()
-            faults += [deck.fault_at((*path, *below), message) for below, message in findings]
-            faults += refused.faults if isinstance(refused, DeckError) else ()
+            if isinstance(refused, DeckError):
+                faults += refused.faults
+            else:
+                faults += [deck.fault_at(*finding.below(*path)) for finding in refused.findings]
             partial |= {group, *(group + side.suffix for side in kind.groups)}
             continue
         notices += generated.notices

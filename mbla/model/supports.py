@@ -10,7 +10,6 @@ import numpy as np
 from mbla.arrays import BoolArray, FloatArray, IntArray, summed
 from mbla.deck.deck import Deck
 from mbla.deck.sections.contacts import ContactsSection
-from mbla.deck.sections.geometry_file import GeometryFile
 from mbla.deck.sections.supports import Plane, Surface
 from mbla.errors import DeckError, Finding, KeyPath
 from mbla.model.blocks.files.members import placed_vertices, read_members, surfaces_of_sheets
@@ -191,15 +190,12 @@ def _surfaces_of(section: Surface, path: KeyPath, deck: Deck, selection: BlockSe
         selection.refuse(found)
         return ()
     assert section.file is not None  # a rule of the deck: one of polygon and file
-    item = GeometryFile.model_construct(
-        file=section.file, units=section.units, scale=section.scale or 1.0, up=section.up, members=section.members
-    )
     try:
-        geometry = read_members(deck.resolve_file((*path, "file"), section.file), item)
+        geometry = read_members(deck.resolve_file((*path, "file"), section.file), section)
         if geometry.planar or geometry.cells:
             kind = "outlines" if geometry.planar else "volume cells"
             raise ItemRefused(Finding("surface-unfit", f"holds {kind}, no surfaces", "file"))
-        placed = placed_vertices(geometry, item, deck.units.length)
+        placed = placed_vertices(geometry, section, deck.units.length)
         geometry = replace(geometry, polyhedra=replace(geometry.polyhedra, vertices=placed))
         closed = np.flatnonzero(~sheets(geometry.polyhedra)[0])
         if len(closed):
@@ -208,8 +204,8 @@ def _surfaces_of(section: Surface, path: KeyPath, deck: Deck, selection: BlockSe
             raise ItemRefused(Finding("surface-unfit", words, "file"))
         return surfaces_of_sheets(geometry, "file", tolerance)
     except ItemRefused as refused:
-        for below, message in refused.findings:
-            selection.refuse(Finding(message.identifier, message.words, *path, *below))
+        for finding in refused.findings:
+            selection.refuse(finding.below(*path))
     except DeckError as error:
         selection.faults.extend(fault for fault in error.faults if fault not in selection.faults)
     return ()

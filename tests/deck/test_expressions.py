@@ -6,12 +6,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mbla.deck.comparisons import read_comparison
 from mbla.deck.expressions import (
     ExpressionError,
     ParameterFaultError,
     Parameters,
 )
+from mbla.sweeps.file.comparisons import read_comparison
 
 
 def value(text: str, **parameters: object) -> float:

@@ -14,7 +14,6 @@ from itertools import product
 import numpy as np
 
 from mbla.arrays import BoolArray
-from mbla.deck.comparisons import Comparison, read_comparison
 from mbla.deck.expressions import (
     CONSTANTS,
     ExpressionError,
@@ -24,6 +23,7 @@ from mbla.deck.expressions import (
 from mbla.deck.suggestions import unknown
 from mbla.errors import DeckError, Fault
 from mbla.sweeps.design.design import DesignAxis, FaultAt
+from mbla.sweeps.file.comparisons import ParameterComparison, read_comparison
 
 OF_DECK = "parameters."
 """begins the key paths of the deck's own parameters"""
@@ -59,7 +59,7 @@ def constrained(
     return keep, tuple(breaches)
 
 
-def _holds(comparison: Comparison, axes: Sequence[DesignAxis], known: Mapping[str, object]) -> BoolArray:
+def _holds(comparison: ParameterComparison, axes: Sequence[DesignAxis], known: Mapping[str, object]) -> BoolArray:
     """Whether a comparison is true along the axes that it depends on; one position along the others."""
     columns = {column.name: column for axis in axes for column in axis.columns}
     replaced = {name for axis in axes for name in _of_deck(axis.settings[0])}
@@ -100,7 +100,7 @@ def _of_deck(settings: Mapping[str, object]) -> dict[str, object]:
     return {key.removeprefix(OF_DECK): value for key, value in settings.items() if key.startswith(OF_DECK)}
 
 
-def _holds_at(comparison: Comparison, raw: Mapping[str, object]) -> bool:
+def _holds_at(comparison: ParameterComparison, raw: Mapping[str, object]) -> bool:
     parameters = Parameters(raw)
     try:
         return comparison.holds(parameters.value)

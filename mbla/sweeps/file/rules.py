@@ -8,7 +8,6 @@ from collections.abc import Iterator
 from math import prod
 from typing import Any
 
-from mbla.deck.comparisons import read_comparison
 from mbla.deck.expressions import ExpressionError
 from mbla.deck.section import one_of, rule
 from mbla.deck.suggestions import listed, unknown
@@ -16,6 +15,7 @@ from mbla.deck.text.tree import shorten
 from mbla.errors import Finding, KeyPath
 from mbla.sweeps.design.directions import FULL_CIRCLE
 from mbla.sweeps.file import content as types
+from mbla.sweeps.file.comparisons import read_comparison
 from mbla.sweeps.file.content import (
     DISTRIBUTIONS,
     KINDS,

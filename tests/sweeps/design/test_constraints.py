@@ -4,9 +4,9 @@ from typing import Any
 
 import pytest
 
-from mbla.deck.comparisons import read_comparison
 from mbla.deck.expressions import ExpressionError
 from mbla.errors import DeckError
+from mbla.sweeps.file.comparisons import read_comparison
 from tests.sweeps.design.hand_made import column, design
 
 PARAMETERS: dict[str, Any] = {

@@ -11,6 +11,7 @@ import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.deck.sections.geometry_file import GeometryFile
+from mbla.deck.sections.supports import Surface
 from mbla.deck.suggestions import unknown
 from mbla.deck.units import METRES
 from mbla.errors import Finding
@@ -30,7 +31,7 @@ UPRIGHT = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])
 """turns y of the file into z by a right angle about x"""
 
 
-def read_members(path: Path, item: GeometryFile) -> Geometry:
+def read_members(path: Path, item: GeometryFile | Surface) -> Geometry:
     """The file's content, of the members selected.
 
     Raises ItemRefused for files that cannot be read, and for names that the file does not have.
@@ -60,6 +61,15 @@ def members_of(geometry: Geometry, wanted: Sequence[str], key: str, where: str =
     return np.array([row for row, name in enumerate(names) if name in chosen], dtype=np.int64)
 
 
+def left_in(geometry: Geometry, left_out: Sequence[str], where: str) -> Geometry:
+    """What is left without some names; raises ItemRefused where that is nothing. ``where`` as of ``members_of``."""
+    rows = members_of(geometry, left_out, "leave_out", where)
+    left = np.setdiff1d(np.arange(len(geometry.polyhedra)), rows)
+    if not len(left):
+        raise ItemRefused(Finding("geometry-without-blocks", "leaves no block: all are left out", "leave_out"))
+    return taken(geometry, left)
+
+
 def taken(geometry: Geometry, rows: IntArray) -> Geometry:
     """Some polyhedra of a file, (n,)."""
     names = tuple(geometry.names[row] for row in rows) if geometry.names else ()
@@ -67,10 +77,12 @@ def taken(geometry: Geometry, rows: IntArray) -> Geometry:
     return replace(geometry, polyhedra=take_polyhedra(geometry.polyhedra, rows), names=names, sets=sets)
 
 
-def placed_vertices(geometry: Geometry, item: GeometryFile, length: str, extrude: float | None = None) -> FloatArray:
+def placed_vertices(
+    geometry: Geometry, item: GeometryFile | Surface, length: str, extrude: float | None = None
+) -> FloatArray:
     """Vertices in the deck's unit of length, z upwards; drawings with their thickness along y."""
     unit = item.units or geometry.unit
-    factor = item.scale * (1.0 if unit in (None, length) else METRES[unit] / METRES[length])
+    factor = (item.scale or 1.0) * (1.0 if unit in (None, length) else METRES[unit] / METRES[length])
     vertices = geometry.polyhedra.vertices
     if geometry.planar:
         assert extrude is not None  # refused before

@@ -11,7 +11,7 @@ import numpy as np
 from mbla.arrays import FloatArray
 from mbla.deck.section import given
 from mbla.errors import Finding, Notice
-from mbla.model.blocks.files.members import members_of, placed_vertices, read_members, split_off_supports, taken
+from mbla.model.blocks.files.members import left_in, placed_vertices, read_members, split_off_supports
 from mbla.model.blocks.generated import Generated, ItemContext, ItemPart, ItemRefused
 from mbla.model.geometry.cells import join_cells, joinable_tetrahedra
 from mbla.model.geometry.geometry import Geometry, member_name
@@ -33,7 +33,10 @@ def read_mesh(item: MeshItem, context: ItemContext) -> Generated:
     DeckError
         for files that are missing or outside the deck's folder
     """
-    geometry = _cells_joined(item, _without(item, read_members(context.resolve_file(("file",), item.file), item)))
+    geometry = read_members(context.resolve_file(("file",), item.file), item)
+    if item.leave_out is not None:
+        geometry = left_in(geometry, item.leave_out, "members has" if item.members else "the file has")
+    geometry = _cells_joined(item, geometry)
     if findings := list(_misfits(item, geometry)):
         raise ItemRefused(*findings)
     loose = _loose_cells(item, geometry)
@@ -49,17 +52,6 @@ def read_mesh(item: MeshItem, context: ItemContext) -> Generated:
     notices = tuple(replace(notice, message=f"{item.file}: {notice.message}") for notice in remarks)
     part = ItemPart(blocks.polyhedra, member=members if any(members) else "")
     return Generated((part,), surfaces=surfaces, notices=notices)
-
-
-def _without(item: MeshItem, geometry: Geometry) -> Geometry:
-    """The file's content without what is left out by name."""
-    if item.leave_out is None:
-        return geometry
-    rows = members_of(geometry, item.leave_out, "leave_out", "members has" if item.members else "the file has")
-    left = np.setdiff1d(np.arange(len(geometry.polyhedra)), rows)
-    if not len(left):
-        raise ItemRefused(Finding("geometry-without-blocks", "leaves no block: all are left out", "leave_out"))
-    return taken(geometry, left)
 
 
 def _cells_joined(item: MeshItem, geometry: Geometry) -> Geometry:

@@ -11,7 +11,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.errors import Finding, Message
-from mbla.model.blocks.files.members import members_of, taken
+from mbla.model.blocks.files.members import left_in
 from mbla.model.blocks.generated import Generated, ItemContext, ItemPart, ItemRefused
 from mbla.model.geometry.geometry import Geometry, member_name
 from mbla.model.solids.polyhedra import polyhedra_from_lists
@@ -53,15 +53,10 @@ def read_blocks(item: TableItem, context: ItemContext) -> Generated:
         [[number[corner] for corner in face] for face in block.faces]
         for block, number in zip(blocks.values(), numbers, strict=True)
     ]
-    members = [member_name(name) for name in blocks]
-    everything = Geometry(polyhedra_from_lists(points, faces), names=tuple(blocks), cells=True)
-    if item.leave_out is None:
-        return Generated((ItemPart(everything.polyhedra, member=members),))
-    rows = members_of(everything, item.leave_out, "leave_out", "the tables have")
-    left = taken(everything, np.setdiff1d(np.arange(len(members)), rows))
-    if not len(left.polyhedra):
-        raise ItemRefused(Finding("geometry-without-blocks", "leaves no block: all are left out", "leave_out"))
-    return Generated((ItemPart(left.polyhedra, member=[member_name(name) for name in left.names]),))
+    geometry = Geometry(polyhedra_from_lists(points, faces), names=tuple(blocks), cells=True)
+    if item.leave_out is not None:
+        geometry = left_in(geometry, item.leave_out, "the tables have")
+    return Generated((ItemPart(geometry.polyhedra, member=[member_name(name) for name in geometry.names]),))
 
 
 @contextmanager

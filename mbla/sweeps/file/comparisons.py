@@ -23,7 +23,7 @@ _ORDER: dict[type[ast.cmpop], Callable[[float, float, bool], bool]] = {
 
 
 @dataclass(frozen=True)
-class Comparison:
+class ParameterComparison:
     """A comparison such as ``t < 0.2*radius``, or a chain of them, ``0.1 < t <= 0.5``.
 
     names : in it, in order, without those of functions that it calls
@@ -45,7 +45,7 @@ class Comparison:
         return holds
 
 
-def read_comparison(text: str) -> Comparison:
+def read_comparison(text: str) -> ParameterComparison:
     """A comparison from its text.
 
     Raises ExpressionError with what is wrong; names are not looked up.
@@ -69,4 +69,4 @@ def read_comparison(text: str) -> Comparison:
     called = {part.func for part in ast.walk(node) if isinstance(part, ast.Call)}
     named = [part for part in ast.walk(node) if isinstance(part, ast.Name) and part not in called]
     named.sort(key=lambda part: (part.lineno, part.col_offset))
-    return Comparison(text, tuple(dict.fromkeys(part.id for part in named)), node)
+    return ParameterComparison(text, tuple(dict.fromkeys(part.id for part in named)), node)
