@@ -23,7 +23,6 @@ UNUSED: dict[str, str] = {
     "AnalysisSection": "gap max_iterations reductions residual search standing time_limit tolerance",
     "MeshItem": "weld",
     "OutputSection": "plots positions",
-    "PathOfJoints": "ratio",
     "PushoverSection": "position",
     "PublishedScheme": "averaging max_programs",
 }

@@ -13,6 +13,7 @@ from mbla.deck.sections.selectors import POSITIONS
 from mbla.model.blocks import ITEM_KINDS
 from mbla.model.blocks.item import AnyItem
 from tests.decks.folder import PATHS, deck_of
+from tests.model.tested_kinds import check_tested
 
 KINDS = tuple(ITEM_KINDS)
 
@@ -29,9 +30,9 @@ def test_every_kind_has_type_schema_deck_and_test(name: str, used: set[str]) -> 
     assert (kind.section.__doc__ or "").strip()
     assert definitions["BlockItem"]["properties"][name] == {"$ref": f"#/$defs/{kind.section.__name__}"}
     assert set(definitions[kind.section.__name__]["properties"]) == set(kind.section.model_fields)
-    assert name in used
-    test = Path(__file__).with_name(f"test_{name}.py").read_text(encoding="utf-8")
-    assert f"mbla.model.blocks.{name} import" in test or f'"{name}"' in test
+    assert name in used, f"no deck has a {name}: write one under decks/"
+    uses = (f"mbla.model.blocks.{name} import", f'"{name}"')
+    check_tested(Path(__file__).with_name(f"test_{name}.py"), name, uses)
 
 
 @pytest.mark.parametrize("name", KINDS)

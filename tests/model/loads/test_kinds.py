@@ -13,6 +13,7 @@ from mbla.deck.sections.loads import Load
 from mbla.model.loads.load_kind import CaseKind, LoadKind
 from tests.deck.keys_in_use import sections_of
 from tests.decks.folder import PATHS, deck_of
+from tests.model.tested_kinds import check_tested
 
 KINDS = tuple(name for name in LOAD_KEYS if name != NAMED)
 
@@ -32,8 +33,8 @@ def test_every_kind_has_type_schema_deck_and_test(name: str, used: set[str]) -> 
     if isinstance(kind.section, type) and issubclass(kind.section, Section):
         assert of_load["$ref"] == f"#/$defs/{kind.section.__name__}"
         assert set(kind.names) <= set(kind.section.model_fields)
-    assert name in used
-    assert f"{name}: " in Path(__file__).with_name(f"test_{name}.py").read_text(encoding="utf-8")
+    assert name in used, f"no deck has a load of kind {name}: write one under decks/"
+    check_tested(Path(__file__).with_name(f"test_{name}.py"), name, [f"{name}: "])
 
 
 def test_a_load_has_one_of_these_kinds() -> None:
