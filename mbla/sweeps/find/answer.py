@@ -21,7 +21,6 @@ from mbla.model import Model, build_model
 from mbla.model.model import LoadCase, select_cases
 from mbla.program.build import build_program
 from mbla.results.outcome import least_known, locked_in, result_of
-from mbla.results.results import CaseResult
 from mbla.results.status_file import StatusFile
 from mbla.run import solve_case
 from mbla.solution.further.geometric_safety.joint_pressure import joint_pressure
@@ -54,11 +53,11 @@ class Evaluation:
     """The result for one value.
 
     x        : the value
+    status   : of the load case; of ``stands`` whether it does, by proved bounds
+    verified : whether code that did not solve it confirms it
     result   : load factor, or pressure in units of stress of the deck; nan where there is none
     y        : result less target; infinite where only the side is known, nan where nothing is
     slope    : of the result by the value; nan where it is not known
-    status   : of the load case; of ``stands`` whether it does, by proved bounds
-    verified : whether code that did not solve it confirms it
     words    : why there is no result; empty where there is one
     solves   : of programs with a load factor
     bounds   : proved, of an associative result; nan without
@@ -66,11 +65,11 @@ class Evaluation:
     """
 
     x: float
-    result: float
-    y: float
-    slope: float
     status: str
-    verified: bool
+    verified: bool = False
+    result: float = math.nan
+    y: float = math.nan
+    slope: float = math.nan
     words: str = ""
     solves: int = 1
     bounds: tuple[float, float] = (math.nan, math.nan)
@@ -85,9 +84,7 @@ def answer_at(deck: Deck, question: FindQuestion, x: float, contacts: KnownConta
     try:
         varied, structure = _structure(deck, question, f"{question.parameter}={x!r}", contacts=contacts)
     except DeckError as error:
-        return Evaluation(
-            x, math.nan, math.nan, math.nan, REFUSED, verified=False, words=str(error.faults[0]), solves=0
-        )
+        return Evaluation(x, REFUSED, words=str(error.faults[0]), solves=0)
     answer = _stands if question.kind == "stands" else _factor
     return answer(varied, question, structure, x)
 
@@ -130,21 +127,22 @@ def _factor(deck: Deck, question: FindQuestion, structure: LoadedAssembly, x: fl
     status, verified = case.status.value, case.checks.verified
     if case.status in (Status.NO_EQUILIBRIUM, Status.UNBOUNDED):
         side = -math.inf if case.status is Status.NO_EQUILIBRIUM else math.inf
-        return Evaluation(x, math.nan, side, math.nan, status, verified, case.solution.reason)
+        return Evaluation(x, status, verified, y=side, words=case.solution.reason)
     own = result_of(case)
     if locked_in(case):  # from the stress-free assembly it falls under no live load at all
-        return Evaluation(x, math.nan, -math.inf, math.nan, Standing.SELF_STRESS.value, verified, case.solution.reason)
+        return Evaluation(x, Standing.SELF_STRESS.value, verified, y=-math.inf, words=case.solution.reason)
     if own is None:
-        return Evaluation(
-            x, math.nan, math.nan, math.nan, status, verified, case.solution.reason or "it is not verified"
-        )
+        return Evaluation(x, status, verified, words=case.solution.reason or "it is not verified")
     result = least_known(case) if question.kind == "least_load_factor" else own.load_factor
     slope, bounds, associative = math.nan, (math.nan, math.nan), case.solution.associative
     if associative is not None and math.isclose(associative.load_factor, result, rel_tol=SAME):
         bounds = case.checks.static_bound, case.checks.kinematic_bound
-        slope = _slope(deck, question, replace(structure, load_case=case.load_case), case)
+        # also of a load factor without dilatancy: never above the associative one, it touches that where both are one
+        structure = replace(structure, load_case=case.load_case)
+        slope = slope_by(deck, structure, case.solution, case.checks, question.path)
     uncertainty = max(_rounding(case.checks, bounds) * max(abs(result), abs(question.target)), _farther(result, bounds))
-    return Evaluation(x, result, result - question.target, slope, status, verified, "", 1, bounds, uncertainty)
+    y = result - question.target
+    return Evaluation(x, status, verified, result, y, slope, bounds=bounds, uncertainty=uncertainty)
 
 
 def _rounding(checks: Checks, bounds: tuple[float, float]) -> float:
@@ -157,15 +155,6 @@ def _farther(result: float, bounds: tuple[float, float]) -> float:
     return max(0.0, result - bounds[0], bounds[1] - result)
 
 
-def _slope(deck: Deck, question: FindQuestion, structure: LoadedAssembly, case: CaseResult) -> float:
-    """Of an associative load factor; nan where it has none.
-
-    It is also that of a load factor without dilatancy that is the same: that is never above the associative one, so
-    that two smooth functions of the parameter touch there.
-    """
-    return slope_by(deck, structure, case.solution, case.checks, question.path)
-
-
 # --- standing -------------------------------------------------------------------------------------------------------
 
 
@@ -176,7 +165,7 @@ def _stands(deck: Deck, question: FindQuestion, structure: LoadedAssembly, x: fl
     if not math.isfinite(value):
         side = found.status.value if math.isnan(value) else "stands" if value > 0.0 else "does not stand"
         words = WITHOUT_SIZE.get(value) or found.solution.reason or "it is not verified"
-        return Evaluation(x, math.nan, value, math.nan, side, verified, words, found.solves)
+        return Evaluation(x, side, verified, y=value, words=words, solves=found.solves)
     stands = "stands" if least >= 0.0 else "does not stand" if most < 0.0 else "at the limit"
 
     def posed(other: LoadedAssembly) -> LoadedAssembly:
@@ -185,7 +174,7 @@ def _stands(deck: Deck, question: FindQuestion, structure: LoadedAssembly, x: fl
     own, unit = slope_by(deck, found.posed, found.solution, found.checks, question.path, posed), found.unit
     value, least, most = unit * value, unit * least, unit * most  # its unit changes with the structure
     uncertainty = _farther(value, (least, most))
-    return Evaluation(x, value, value, unit * own, stands, verified, "", found.solves, (least, most), uncertainty)
+    return Evaluation(x, stands, verified, value, value, unit * own, "", found.solves, (least, most), uncertainty)
 
 
 def standing_at(deck: Deck, question: FindQuestion, x: float) -> StandingResult:

@@ -60,10 +60,9 @@ def question_of(deck: Deck, options: Any) -> FindQuestion:
     given = {name: getattr(options, name) for name in ("parameter", "target", "bounds")}
     kind, target = ("", 0.0) if given["target"] is None else given["target"]
     if section is not None:
-        own = section.target
         if not kind:
-            kind = next(name for name in TARGETS if getattr(own, name) is not None)
-            target = getattr(own, kind)
+            kind = next(name for name in TARGETS if getattr(section.target, name) is not None)
+            target = getattr(section.target, kind)
         given["parameter"] = given["parameter"] or section.parameter
         given["bounds"] = given["bounds"] or section.bounds
     missing = [name for name in ("parameter", "bounds") if given[name] is None] + (["target"] if not kind else [])

@@ -109,20 +109,9 @@ class FindResult:
         asked = "the dead load is just carried" if question.kind == "stands" else f"{what} {number(question.target)}"
         least, greatest = (f"{each:g}" for each in question.bounds)
         unit = f" {question.unit}" if question.unit else ""
-        lines = [
-            f"{question.parameter} from {least} to {greatest}{unit}, load case {question.load_case}: where {asked}"
-        ]
-        rows = [
-            [
-                f"{each.x:.9g}",
-                *("-" if math.isnan(value) else f"{value:.7g}" for value in (each.result, each.slope)),
-                each.status,
-                "" if each.verified or not each.solves else "not verified",
-            ]
-            for each in self.answers
-        ]
-        head = ["value", what, "slope", "", ""]
-        lines += table(head, rows, left=0)
+        bounds = f"{question.parameter} from {least} to {greatest}{unit}"
+        lines = [f"{bounds}, load case {question.load_case}: where {asked}"]
+        lines += table(["value", what, "slope", "", ""], list(map(_row, self.answers)), left=0)
         for words in dict.fromkeys(each.words for each in self.answers if each.words):
             lines += sentence(full_sentence(words))
         if question.kind == "stands":
@@ -152,6 +141,11 @@ NO_EFFECT = "{} has no effect on the {} between {} and {}{}, as far as the value
 UNKNOWN = (
     "There is no result for {} = {}: values next to it may be missed. Other bounds or a finer --scan may find them."
 )
+
+
+def _row(each: Evaluation) -> list[str]:
+    figures = ["-" if math.isnan(value) else f"{value:.7g}" for value in (each.result, each.slope)]
+    return [f"{each.x:.9g}", *figures, each.status, "" if each.verified or not each.solves else "not verified"]
 
 
 def _sure(zero: Zero[Evaluation]) -> bool:
@@ -224,14 +218,8 @@ def _side(answer: Evaluation) -> str:
 def find(deck: Deck, options: Any) -> FindResult:
     """Look for the values that the deck or the options ask for.
 
-    Raises
-    ------
-    UsageError
-        The question is not complete, or names what the deck does not have.
-    DeckError
-        The deck is refused as it stands, and at every step.
-    SolverError, LimitError
-        As a run does.
+    Raises UsageError: the question is not complete, or names what the deck does not have. Raises DeckError: the deck is
+    refused as it stands, and at every step. Raises SolverError, LimitError: as a run does.
     """
     question = question_of(deck, options)
     answers, contacts = list[Evaluation](), KnownContacts()

@@ -14,6 +14,7 @@ from mbla.model.ties.ties import OUTSIDE
 from mbla.results.listing.text import counted, full_sentence, number, sentence, table
 from mbla.results.record.json_values import as_json
 from mbla.solution.solution import WITH_VALUE
+from mbla.sweeps.design.design import header_of
 from mbla.sweeps.strengthen.study import Strengthened
 
 MOST = 40
@@ -76,57 +77,44 @@ def record_of(answer: Strengthened) -> dict[str, Any]:
 def table_csv(answer: Strengthened) -> str:
     """Every candidate as a row of CSV."""
     units = answer.model.units
-    head = {
-        "name": "name", "from_body": "from_body", "to_body": "to_body",
-        "length": f"length [{units.length}]", "unit_cost": "unit_cost",
-        "cheapest_capacity": f"cheapest_capacity [{units.force}]", "capacity": f"capacity [{units.force}]",
-        "cost": "cost", "worth": "worth",
-    }  # fmt: skip
+    head = {"name": "", "from_body": "", "to_body": "", "length": units.length, "unit_cost": ""}
+    head |= {"cheapest_capacity": units.force, "capacity": units.force, "cost": "", "worth": ""}
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
     places = [f"{end}_{axis} [{units.length}]" for end in ("from", "to") for axis in "xyz"]
-    writer.writerow([*head.values(), *places])
+    writer.writerow([*map(header_of, head, head.values()), *places])
     for row in rows_of(answer):
         writer.writerow([*(row[key] for key in head), *row["from_place"].tolist(), *row["to_place"].tolist()])
     return text.getvalue()
 
 
+WORTH = (
+    "Worth: what a unit of capacity of a candidate saves elsewhere, over its cost: 1 where it is used; a candidate "
+    "comes into use where it costs less than that share of its cost."
+)
+
+
+def _candidate_table(answer: Strengthened) -> list[str]:
+    units = answer.model.units
+    head = ["candidate", "from", "to", f"length [{units.length}]", f"capacity [{units.force}]"]
+    rows = [row for row in rows_of(answer) if row["capacity"] > 0.0 or row["worth"] > 0.0][:MOST]
+    cells = []
+    for row in rows:
+        figures = [number(row[key]) if row[key] else "-" for key in ("capacity", "cheapest_capacity", "cost")]
+        bodies = [row["name"], row["from_body"], row["to_body"], number(row["length"])]
+        cells.append([*bodies, *figures, f"{row['worth']:.4g}"])
+    return table([*head, "cheapest", "cost", "worth"], cells, left=3)
+
+
 def lines_of(answer: Strengthened) -> list[str]:
     """The same in words."""
-    found, units = answer.cheapest, answer.model.units
-    count = len(answer.candidates.costs)
+    found, count = answer.cheapest, len(answer.candidates.costs)
     if found.status not in WITH_VALUE:
         return sentence(full_sentence(f"No strengthening: {found.reason}"))
     used = int((answer.capacities > 0.0).sum())
-    if not used:
-        lines = [f"{answer.deck.path.name}: nothing has to be added"]
-    else:
-        lines = [f"{answer.deck.path.name}: {used} of {counted(count, 'candidate')} used, cost {number(answer.cost)}"]
-    rows = [row for row in rows_of(answer) if row["capacity"] > 0.0 or row["worth"] > 0.0][:MOST]
-    head = ["candidate", "from", "to", f"length [{units.length}]"]
-    head += [f"capacity [{units.force}]", "cheapest", "cost", "worth"]
-    lines += table(
-        head,
-        [
-            [
-                row["name"],
-                row["from_body"],
-                row["to_body"],
-                number(row["length"]),
-                number(row["capacity"]) if row["capacity"] else "-",
-                number(row["cheapest_capacity"]) if row["cheapest_capacity"] else "-",
-                number(row["cost"]) if row["cost"] else "-",
-                f"{row['worth']:.4g}",
-            ]
-            for row in rows
-        ],
-        left=3,
-    )
-    lines += sentence(
-        "Worth: what a unit of capacity of a candidate saves elsewhere, over its cost: 1 where it is used; a candidate "
-        "comes into use where it costs less than that share of its cost."
-    )
-    lines += sentence(_bound_words(answer))
+    says = f"{used} of {counted(count, 'candidate')} used, cost {number(answer.cost)}"
+    lines = [f"{answer.deck.path.name}: {says if used else 'nothing has to be added'}"]
+    lines += [*_candidate_table(answer), *sentence(WORTH), *sentence(_bound_words(answer))]
     for name, (required, factor) in answer.factors.items():
         says = "no load factor" if math.isnan(factor) else f"load factor {number(factor)}"
         says = "any multiple of its live loads is carried" if factor == math.inf else says

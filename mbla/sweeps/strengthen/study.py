@@ -104,12 +104,8 @@ def strengthen(deck: Deck, options: RunOptions, log: Log) -> Strengthened:
 
     log : called once per iteration of the program
 
-    Raises
-    ------
-    UsageError
-        The deck asks for nothing, or for what no program of this kind answers.
-    DeckError, FileError, LimitError, SolverError
-        As a run does.
+    Raises UsageError: the deck asks for nothing, or for what no program of this kind answers. Raises DeckError,
+    FileError, LimitError, SolverError: as a run does.
     """
     refuse_unfit(deck)
     stem = f"{deck.path.stem}_strengthened"
@@ -180,21 +176,10 @@ def _analysed(
     if not short and not best.carries(required):
         used = [candidates.ties.names[row] for row in np.flatnonzero(best.capacities)]
         short = shortfall(best.results, required, best.factors, used, RAISED)
-    answer = Strengthened(
-        deck,
-        model,
-        candidates,
-        first,
-        best.capacities,
-        best.asked,
-        raised,
-        best.cost,
-        {name: (factor, best.factors[name]) for name, factor in required.items()},
-        all(case.checks.verified for case in best.results.cases),
-        len(tries),
-        (),
-        short,
-    )
+    told = {name: (factor, best.factors[name]) for name, factor in required.items()}
+    verified = all(case.checks.verified for case in best.results.cases)
+    found = (best.capacities, best.asked, raised, best.cost, told, verified, len(tries))
+    answer = Strengthened(deck, model, candidates, first, *found, (), short)
     return replace(answer, files=_files(answer, movable, best.results, options))
 
 
@@ -257,16 +242,8 @@ def _tie(model: Model, ties: Ties, row: int, capacity: float) -> dict[str, Any]:
     """A tie as the deck writes it."""
     points = range(int(ties.start[row]), int(ties.start[row + 1]))
     order = [*points, *([points[0]] if ties.closed[row] else [])]
-    blocks = model.blocks
-    on: list[Any] = [
-        GROUND
-        if ties.bodies[point] == OUTSIDE
-        else {
-            "group": blocks.groups[int(ties.bodies[point])],
-            "index": int(blocks.group_indices[int(ties.bodies[point])]),
-        }
-        for point in order
-    ]
+    groups, indices, bodies = model.blocks.groups, model.blocks.group_indices, ties.bodies[order].tolist()
+    on = [GROUND if body == OUTSIDE else {"group": groups[body], "index": int(indices[body])} for body in bodies]
     name = ties.names[row].replace("[", "_").rstrip("]")
     through = [[float(f"{value:.12g}") for value in ties.places[point].tolist()] for point in order]
     return {"name": name, "through": through, "on": on, "capacity": float(f"{capacity:.9g}")}
