@@ -40,26 +40,10 @@ from mbla.process.limits import limit_threads, refuse_too_low_limits, without_pl
 from mbla.results.failures import ENDINGS
 
 COMMANDS = (
-    run.add_run,
-    check.add_check,
-    show.add_show,
-    verify.add_verify,
-    assess.add_assess,
-    plot.add_plot,
-    report.add_report,
-    export.add_export,
-    diff.add_diff,
-    sweep.add_sweep,
-    sweep_plot.add_sweep_plot,
-    interact.add_interact,
-    tradeoff.add_tradeoff,
-    find.add_find,
-    strengthen.add_strengthen,
-    explain.add_explain,
-    schema.add_schema,
-    new.add_new,
+    *(run, check, show, verify, assess, plot, report, export, diff),
+    *(sweep, sweep_plot, interact, tradeoff, find, strengthen, explain, schema, new),
 )
-"""What adds each command, in the order of the help."""
+"""A module each, in the order of the help"""
 
 EXIT_STATUS = """\
 exit status:
@@ -131,6 +115,6 @@ def build_parser() -> argparse.ArgumentParser:
     )
     parser.add_argument("--version", action="version", version=f"mbla {__version__}")
     commands = parser.add_subparsers(required=True, metavar="COMMAND", dest="command")
-    for add in COMMANDS:
-        add(commands)
+    for command in COMMANDS:
+        command.add(commands)
     return parser

@@ -9,8 +9,8 @@ from typing import Any
 from mbla.process.collector import loading
 
 
-def add_assess(commands: Any) -> None:
-    """``mbla assess``."""
+def add(commands: Any) -> None:
+    """The command and its options."""
     command = commands.add_parser(
         "assess",
         help="what a code says of a result, for another earthquake too; solves nothing",
@@ -19,13 +19,8 @@ def add_assess(commands: Any) -> None:
     )
     command.set_defaults(action=assess, about={"result": "result"})
     command.add_argument("result", type=Path, metavar="RESULT.h5")
-    command.add_argument(
-        "--set",
-        action="append",
-        default=[],
-        metavar="KEY.PATH=VALUE",
-        help="change load_cases.NAME.assessment, or a parameter that it alone uses (repeatable)",
-    )
+    words = "change load_cases.NAME.assessment, or a parameter that it alone uses (repeatable)"
+    command.add_argument("--set", action="append", default=[], metavar="KEY.PATH=VALUE", help=words)
     command.add_argument("--json", action="store_true", help="one JSON object on standard output")
 
 

@@ -13,8 +13,8 @@ from mbla.cli.options import add_deck_options
 from mbla.process.collector import loading
 
 
-def add_check(commands: Any) -> None:
-    """``mbla check``."""
+def add(commands: Any) -> None:
+    """The command and its options."""
     command = commands.add_parser("check", help="read, build, find contacts, say what the model is; solve nothing")
     command.set_defaults(action=check)
     command.add_argument("decks", nargs="+", type=Path, metavar="DECK")

@@ -10,8 +10,8 @@ from mbla.cli.options import relative
 from mbla.process.collector import loading
 
 
-def add_diff(commands: Any) -> None:
-    """``mbla diff``."""
+def add(commands: Any) -> None:
+    """The command and its options."""
     command = commands.add_parser(
         "diff",
         help="what differs between two result files",
@@ -23,13 +23,11 @@ def add_diff(commands: Any) -> None:
     command.set_defaults(action=diff, about={"first": "first", "second": "second"})
     command.add_argument("first", type=Path, metavar="A.h5")
     command.add_argument("second", type=Path, metavar="B.h5")
-    command.add_argument(
-        "--tolerance",
-        type=relative,
-        metavar="T",
-        help="relative difference up to which answers are the same (default: the sum of what both are good to, the "
-        "gap of associative factors and the largest residual of others; at least 1e-6)",
+    words = (
+        "relative difference up to which answers are the same (default: the sum of what both are good to, the "
+        "gap of associative factors and the largest residual of others; at least 1e-6)"
     )
+    command.add_argument("--tolerance", type=relative, metavar="T", help=words)
     command.add_argument("--fail", action="store_true", help="exit status 4 where a status or an answer differs")
     command.add_argument("--json", action="store_true", help="one JSON object on standard output")
 

@@ -8,8 +8,8 @@ from typing import Any
 from mbla.process.collector import loading
 
 
-def add_explain(commands: Any) -> None:
-    """``mbla explain``."""
+def add(commands: Any) -> None:
+    """The command and its options."""
     command = commands.add_parser(
         "explain",
         help="what an identifier of a warning, a status or an error means, and what to do",

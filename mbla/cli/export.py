@@ -14,8 +14,8 @@ if TYPE_CHECKING:
     from mbla.results.results import Results
 
 
-def add_export(commands: Any) -> None:
-    """``mbla export``."""
+def add(commands: Any) -> None:
+    """The command and its options."""
     command = commands.add_parser(
         "export", help="tables of blocks, interfaces, points and load cases; decks of macro-blocks"
     )
@@ -23,28 +23,18 @@ def add_export(commands: Any) -> None:
     command.add_argument("result", type=Path, metavar="RESULT.h5")
     command.add_argument("--csv", action="store_true", help="CSV, units in the header (what is written by default)")
     command.add_argument("--parquet", action="store_true", help="Parquet (extra mbla[tables])")
-    command.add_argument(
-        "--macro-blocks",
-        action="store_true",
-        help="in the place of tables a deck for each load case, STEM_CASE_macro.yaml, whose blocks are the rigid parts "
-        "of its mechanism; with associative flow they have the same load factor",
+    words = (
+        "in the place of tables a deck for each load case, STEM_CASE_macro.yaml, whose blocks are the rigid parts "
+        "of its mechanism; with associative flow they have the same load factor"
     )
-    command.add_argument(
-        "--associative",
-        action="store_true",
-        help="with --macro-blocks: parts of the mechanism of associative flow, whatever the flow rule of the deck",
-    )
-    command.add_argument(
-        "-o", "--output", type=place, metavar="DIR", help="folder of the files (default: that of the result)"
-    )
+    command.add_argument("--macro-blocks", action="store_true", help=words)
+    words = "with --macro-blocks: parts of the mechanism of associative flow, whatever the flow rule of the deck"
+    command.add_argument("--associative", action="store_true", help=words)
+    words = "folder of the files (default: that of the result)"
+    command.add_argument("-o", "--output", type=place, metavar="DIR", help=words)
     command.add_argument("--case", action="append", default=[], metavar="NAME", help="only this load case (repeatable)")
-    command.add_argument(
-        "--table",
-        type=names,
-        default=[],
-        metavar="NAME,...",
-        help="only these tables, such as blocks,interfaces,points",
-    )
+    words = "only these tables, such as blocks,interfaces,points"
+    command.add_argument("--table", type=names, default=[], metavar="NAME,...", help=words)
     command.add_argument("--force", action="store_true", help="replace earlier files")
 
 

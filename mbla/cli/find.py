@@ -6,13 +6,13 @@ import argparse
 from pathlib import Path
 from typing import Any
 
-from mbla.cli.given_decks import read_given_deck, refuse_unfit_name, run_options
+from mbla.cli.given_decks import read_one_deck, run_options
 from mbla.cli.options import add_analysis_options, points, relative_above_zero, target
 from mbla.process.collector import loading
 
 
-def add_find(commands: Any) -> None:
-    """``mbla find``."""
+def add(commands: Any) -> None:
+    """The command and its options."""
     command = commands.add_parser(
         "find",
         help="the value of a parameter at which a load factor is a target, or the structure just stands",
@@ -28,25 +28,17 @@ def add_find(commands: Any) -> None:
     command.set_defaults(action=find, about={"deck": "deck"}, output=None, force=False)
     command.add_argument("deck", type=Path, metavar="DECK")
     command.add_argument("--parameter", metavar="KEY.PATH", help="key path of a real number in the deck, as for --set")
-    command.add_argument(
-        "--target", type=target, metavar="WHAT", help="load_factor=VALUE, least_load_factor=VALUE, or stands"
-    )
-    command.add_argument(
-        "--bounds", nargs=2, type=float, metavar=("LOW", "HIGH"), help="least and greatest value, in the deck's units"
-    )
+    words = "load_factor=VALUE, least_load_factor=VALUE, or stands"
+    command.add_argument("--target", type=target, metavar="WHAT", help=words)
+    words = "least and greatest value, in the deck's units"
+    command.add_argument("--bounds", nargs=2, type=float, metavar=("LOW", "HIGH"), help=words)
     command.add_argument("--case", metavar="NAME", help="the load case; needed if there are several")
-    command.add_argument(
-        "--scan", type=points, metavar="N", help="equal steps between the bounds that are solved first"
-    )
-    command.add_argument(
-        "--tolerance",
-        type=relative_above_zero,
-        metavar="T",
-        help="error of the value, over the larger bound (default 1e-6)",
-    )
-    command.add_argument(
-        "--set", action="append", default=[], metavar="KEY.PATH=VALUE", help="change a value of the deck (repeatable)"
-    )
+    words = "equal steps between the bounds that are solved first"
+    command.add_argument("--scan", type=points, metavar="N", help=words)
+    words = "error of the value, over the larger bound (default 1e-6)"
+    command.add_argument("--tolerance", type=relative_above_zero, metavar="T", help=words)
+    words = "change a value of the deck (repeatable)"
+    command.add_argument("--set", action="append", default=[], metavar="KEY.PATH=VALUE", help=words)
     add_analysis_options(command)
     command.add_argument("--json", action="store_true", help="one JSON object on standard output, nothing else")
     command.add_argument("-q", "--quiet", action="store_true", help="say nothing but errors")
@@ -54,8 +46,7 @@ def add_find(commands: Any) -> None:
 
 def find(options: argparse.Namespace) -> int:
     """Look for values; table and sentences go to standard output, with ``--json`` the object alone."""
-    refuse_unfit_name(options.deck)
-    content, _ = read_given_deck(options.deck, run_options(options))
+    content = read_one_deck(options.deck, run_options(options))
     with loading():
         from mbla.results.record.json_values import json_line
         from mbla.sweeps.find.study import find as look

@@ -31,6 +31,12 @@ def read_given_deck(path: Path, options: RunOptions) -> tuple[Deck, float]:
     return read_deck(path, options.overrides), time.perf_counter() - started
 
 
+def read_one_deck(path: Path, options: RunOptions) -> Deck:
+    """The deck of a command that takes one; raises FileError for a name that no result file can have."""
+    refuse_unfit_name(path)
+    return read_given_deck(path, options)[0]
+
+
 def run_options(options: argparse.Namespace, *, override: bool = True) -> RunOptions:
     """Options of a run; those that stand for values of the deck become overrides unless the command means others."""
     overrides = list(options.set)
@@ -38,20 +44,15 @@ def run_options(options: argparse.Namespace, *, override: bool = True) -> RunOpt
         value = getattr(options, name, None)
         if value is not None:
             overrides.append(f"analysis.{name}={value}")
+    cases = getattr(options, "case", None) or ()  # some commands take one
     return RunOptions(
         folder=options.output,
         overrides=tuple(overrides),
-        cases=_cases(options),
+        cases=(cases,) if isinstance(cases, str) else tuple(cases),
         force=options.force,
         threads=getattr(options, "threads", 1),
         expected=getattr(options, "expected", False),
     )
-
-
-def _cases(options: argparse.Namespace) -> tuple[str, ...]:
-    """Names of ``--case``, which some commands take once."""
-    given = getattr(options, "case", None) or ()
-    return (given,) if isinstance(given, str) else tuple(given)
 
 
 def refuse_unfit_name(deck: Path, what: str = "deck") -> None:

@@ -6,13 +6,14 @@ import argparse
 from pathlib import Path
 from typing import Any
 
-from mbla.cli.given_decks import run_options
-from mbla.cli.options import add_analysis_options, add_deck_options, degrees, points, seconds, workers
-from mbla.cli.study import run_study
+from mbla.cli.given_decks import read_one_deck, run_options
+from mbla.cli.options import add_analysis_options, add_deck_options, add_jobs, degrees, points, seconds
+from mbla.cli.sweep_progress import solve_and_print
+from mbla.process.collector import loading
 
 
-def add_interact(commands: Any) -> None:
-    """``mbla interact``."""
+def add(commands: Any) -> None:
+    """The command and its options."""
     command = commands.add_parser(
         "interact",
         help="load factor over horizontal direction, or over two live loads: table and diagram",
@@ -30,30 +31,24 @@ def add_interact(commands: Any) -> None:
     command.add_argument("deck", type=Path, metavar="DECK")
     command.add_argument("--case", metavar="NAME", help="the load case that is turned; needed if there are several")
     command.add_argument("--loads", nargs=2, metavar=("A", "B"), help="two load cases whose live loads act together")
-    command.add_argument(
-        "--directions", type=points, metavar="N", help="points around the horizon (default 72), or of two loads (31)"
-    )
+    words = "points around the horizon (default 72), or of two loads (31)"
+    command.add_argument("--directions", type=points, metavar="N", help=words)
     command.add_argument("--from", dest="start", type=degrees, metavar="DEG", help="first angle of two loads (0)")
-    command.add_argument(
-        "--to", dest="end", type=degrees, metavar="DEG", help="last angle (90 on; 360: both loads with both signs)"
-    )
-    command.add_argument(
-        "-j", "--jobs", type=workers, default=1, metavar="N", help="processes of this machine (default 1)"
-    )
+    words = "last angle (90 on; 360: both loads with both signs)"
+    command.add_argument("--to", dest="end", type=degrees, metavar="DEG", help=words)
+    add_jobs(command)
     add_deck_options(command, "for every point", default="DECK_interact.out")
-    command.add_argument(
-        "--time-limit", type=seconds, metavar="S", help="seconds for each point, instead of analysis.time_limit"
-    )
+    words = "seconds for each point, instead of analysis.time_limit"
+    command.add_argument("--time-limit", type=seconds, metavar="S", help=words)
     add_analysis_options(command)
     command.add_argument("-q", "--quiet", action="store_true", help="say nothing but errors")
 
 
 def interact(options: argparse.Namespace) -> int:
     """Solve the points of a diagram; the table goes to standard output, with ``--json`` the object alone."""
+    run = run_options(options)
+    deck = read_one_deck(options.deck, run)
+    with loading():
+        from mbla.sweeps.interaction.study import interact as study
 
-    def study() -> Any:
-        from mbla.sweeps.interaction.study import interact
-
-        return interact
-
-    return run_study(options, run_options(options), study)
+    return solve_and_print(options, lambda report: study(deck, run, options, report))

@@ -6,12 +6,11 @@ import argparse
 import shlex
 from typing import Any
 
-from mbla.cli.starters import KINDS
-from mbla.process.collector import loading
+from mbla.cli.starters import KINDS, write_starter
 
 
-def add_new(commands: Any) -> None:
-    """``mbla new``."""
+def add(commands: Any) -> None:
+    """The command and its options."""
     kinds = "; ".join(f"{kind}: {words}" for kind, words in KINDS.items())
     command = commands.add_parser(
         "new",
@@ -26,9 +25,6 @@ def add_new(commands: Any) -> None:
 
 def new(options: argparse.Namespace) -> int:
     """Write it; its path is printed."""
-    with loading():
-        from mbla.cli.starter import write_starter
-
     path = write_starter(options.name, kind=options.kind, replace=options.force)
     print(f"{path} written; run it with: mbla run {shlex.quote(str(path))}")
     return 0

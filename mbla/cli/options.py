@@ -89,27 +89,24 @@ def add_deck_options(
 ) -> None:
     """Where files go, values of the deck, ``--force`` and ``--json``."""
     command.add_argument("-o", "--output", type=place, metavar="DIR", help=f"folder of the results (default {default})")
-    command.add_argument(
-        "--set",
-        action="append",
-        default=[],
-        metavar="KEY.PATH=VALUE",
-        help=f"change a value of the deck{extent and ' '}{extent} (repeatable); items of lists by number, from 0",
-    )
+    words = f"change a value of the deck{extent and ' '}{extent} (repeatable); items of lists by number, from 0"
+    command.add_argument("--set", action="append", default=[], metavar="KEY.PATH=VALUE", help=words)
     command.add_argument("--force", action="store_true", help="replace an earlier result")
-    command.add_argument(
-        "--json", action="store_true", help=f"one JSON object per {what} on standard output, nothing else"
-    )
+    words = f"one JSON object per {what} on standard output, nothing else"
+    command.add_argument("--json", action="store_true", help=words)
 
 
 def add_analysis_options(command: argparse.ArgumentParser) -> None:
     """Options in the place of values of ``analysis``."""
     command.add_argument("--accuracy", choices=["draft", "standard", "reference"], help="instead of analysis.accuracy")
-    command.add_argument(
-        "--flow-rule",
-        choices=["associative", "non_associative", "dilatancy", "livesley"],
-        help="instead of analysis.flow_rule",
-    )
+    words = "instead of analysis.flow_rule"
+    command.add_argument("--flow-rule", choices=["associative", "non_associative", "dilatancy", "livesley"], help=words)
+
+
+def add_jobs(command: argparse.ArgumentParser) -> None:
+    """Processes for the points of a sweep."""
+    words = "processes of this machine (default 1)"
+    command.add_argument("-j", "--jobs", type=workers, default=1, metavar="N", help=words)
 
 
 def add_result_and_output(command: Any, what: str) -> None:
@@ -122,9 +119,8 @@ def add_page_options(command: Any) -> None:
     """Size and format of pictures."""
     command.add_argument("--size", default="1600x1000", metavar="WxH", help="pixels of a PNG at 100 dpi")
     command.add_argument("--dpi", type=dots, default=100, help="dots per inch of a PNG (default 100)")
-    command.add_argument(
-        "--format", choices=["png", "svg", "pdf"], default="png", help="format of pictures in a folder (default png)"
-    )
+    words = "format of pictures in a folder (default png)"
+    command.add_argument("--format", choices=["png", "svg", "pdf"], default="png", help=words)
 
 
 def result_command(

@@ -9,8 +9,8 @@ from mbla.cli.options import add_page_options, add_result_and_output
 from mbla.process.collector import loading
 
 
-def add_plot(commands: Any) -> None:
-    """``mbla plot``."""
+def add(commands: Any) -> None:
+    """The command and its options."""
     command = commands.add_parser(
         "plot",
         help="pictures of model, mechanism and forces (extra mbla[pictures])",
@@ -18,27 +18,18 @@ def add_plot(commands: Any) -> None:
     )
     command.set_defaults(action=plot)
     add_result_and_output(command, "PNG, SVG or PDF file, by its name, of one picture; or a folder")
-    command.add_argument(
-        "--kind",
-        metavar="KIND",
-        help="model, mechanism, forces, history, curve (of a pushover), several with commas, or all "
-        "(default: the first three, and the history of a load that travels; the mechanism where -o names a file)",
+    words = (
+        "model, mechanism, forces, history, curve (of a pushover), several with commas, or all "
+        "(default: the first three, and the history of a load that travels; the mechanism where -o names a file)"
     )
+    command.add_argument("--kind", metavar="KIND", help=words)
     command.add_argument("--case", metavar="NAME", help="only this load case")
-    command.add_argument(
-        "--animate",
-        choices=["gif", "mp4"],
-        help="moving pictures of the mechanisms in the place of pictures, with --kind curve of the steps of a pushover",
-    )
-    command.add_argument(
-        "--view",
-        default="auto",
-        metavar="VIEW",
-        help="front, back, left, right, top, iso, below, auto, or AZIMUTH,ELEVATION in degrees, as --view=-60,25",
-    )
-    command.add_argument(
-        "--scale", default="auto", metavar="X", help="factor on the displacements of the default, auto"
-    )
+    words = "moving pictures of the mechanisms in the place of pictures, with --kind curve of the steps of a pushover"
+    command.add_argument("--animate", choices=["gif", "mp4"], help=words)
+    words = "front, back, left, right, top, iso, below, auto, or AZIMUTH,ELEVATION in degrees, as --view=-60,25"
+    command.add_argument("--view", default="auto", metavar="VIEW", help=words)
+    words = "factor on the displacements of the default, auto"
+    command.add_argument("--scale", default="auto", metavar="X", help=words)
     add_page_options(command)
 
 

@@ -10,8 +10,8 @@ from mbla.cli.options import add_result_and_output
 from mbla.process.collector import loading
 
 
-def add_report(commands: Any) -> None:
-    """``mbla report``."""
+def add(commands: Any) -> None:
+    """The command and its options."""
     command = commands.add_parser(
         "report",
         help="one self-contained HTML file of a result (extra mbla[report])",

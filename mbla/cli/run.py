@@ -23,24 +23,18 @@ if TYPE_CHECKING:
     from mbla.run import Progress
 
 
-def add_run(commands: Any) -> None:
-    """``mbla run``."""
+def add(commands: Any) -> None:
+    """The command and its options."""
     command = commands.add_parser("run", help="solve every load case of decks and write the results")
     command.set_defaults(action=run)
     command.add_argument("decks", nargs="+", type=Path, metavar="DECK")
     add_deck_options(command)
     command.add_argument("--case", action="append", default=[], metavar="NAME", help="only this load case (repeatable)")
     add_analysis_options(command)
-    command.add_argument(
-        "--time-limit", type=seconds, metavar="S", help="seconds for all load cases, instead of analysis.time_limit"
-    )
-    command.add_argument(
-        "--threads",
-        type=threads,
-        default=1,
-        metavar="N",
-        help="threads of the linear algebra libraries, at most (default 1); factorisations are serial",
-    )
+    words = "seconds for all load cases, instead of analysis.time_limit"
+    command.add_argument("--time-limit", type=seconds, metavar="S", help=words)
+    words = "threads of the linear algebra libraries, at most (default 1); factorisations are serial"
+    command.add_argument("--threads", type=threads, default=1, metavar="N", help=words)
     command.add_argument("--expected", action="store_true", help="compare with the deck's expected section")
     volume = command.add_mutually_exclusive_group()
     volume.add_argument("-q", "--quiet", action="store_true", help="say nothing but errors")
@@ -97,10 +91,8 @@ def _refuse_shared_folder(decks: Sequence[Path], options: RunOptions) -> None:
     """Two decks of one name would write the same files."""
     targets = [(options.folder_for(deck).resolve(), deck.stem) for deck in decks if deck.name]
     if len(set(targets)) < len(targets):
-        raise UsageError(
-            "same-result-files",
-            "two of the decks would write the same result files: give them different names or folders",
-        )
+        words = "two of the decks would write the same result files: give them different names or folders"
+        raise UsageError("same-result-files", words)
 
 
 def _progress() -> Progress | None:

@@ -9,8 +9,8 @@ from typing import Any
 from mbla.process.collector import loading
 
 
-def add_schema(commands: Any) -> None:
-    """``mbla schema``."""
+def add(commands: Any) -> None:
+    """The command and its options."""
     command = commands.add_parser("schema", help="print the JSON Schema of decks, or of sweep files")
     command.set_defaults(action=schema)
     command.add_argument("kind", nargs="?", choices=["deck", "sweep"], default="deck")

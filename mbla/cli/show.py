@@ -9,8 +9,8 @@ from mbla.cli.options import result_command
 from mbla.process.collector import loading
 
 
-def add_show(commands: Any) -> None:
-    """``mbla show``."""
+def add(commands: Any) -> None:
+    """The command and its options."""
     result_command(commands, "show", show, "print the listing of a result file")
 
 

@@ -1,4 +1,4 @@
-"""``mbla strengthen``: call what does the work, print, return the exit status; nothing else."""
+"""``mbla strengthen``."""
 
 from __future__ import annotations
 
@@ -6,13 +6,13 @@ import argparse
 from pathlib import Path
 from typing import Any
 
-from mbla.cli.given_decks import read_given_deck, refuse_unfit_name, run_options
+from mbla.cli.given_decks import read_one_deck, run_options
 from mbla.cli.options import add_analysis_options, add_deck_options
 from mbla.process.collector import loading
 
 
-def add_strengthen(commands: Any) -> None:
-    """``mbla strengthen``."""
+def add(commands: Any) -> None:
+    """The command and its options."""
     command = commands.add_parser(
         "strengthen",
         help="the cheapest ties with which a structure carries its required loads",
@@ -34,9 +34,8 @@ def add_strengthen(commands: Any) -> None:
 
 def strengthen(options: argparse.Namespace) -> int:
     """Find, analyse and write; table and sentences go to standard output, with ``--json`` the object alone."""
-    refuse_unfit_name(options.deck)
     chosen = run_options(options)
-    content, _ = read_given_deck(options.deck, chosen)
+    content = read_one_deck(options.deck, chosen)
     with loading():
         from mbla.results.record.json_values import json_line
         from mbla.sweeps.strengthen.report import lines_of, record_of

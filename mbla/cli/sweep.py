@@ -4,19 +4,16 @@ from __future__ import annotations
 
 import argparse
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from mbla.cli.given_decks import refuse_unfit_name
-from mbla.cli.options import add_deck_options, shard, workers
-from mbla.cli.sweep_progress import print_finished, solved
+from mbla.cli.options import add_deck_options, add_jobs, shard
+from mbla.cli.sweep_progress import solve_and_print
 from mbla.process.collector import loading
 
-if TYPE_CHECKING:
-    from mbla.sweeps.command import SweepOptions
 
-
-def add_sweep(commands: Any) -> None:
-    """``mbla sweep``."""
+def add(commands: Any) -> None:
+    """The command and its options."""
     command = commands.add_parser(
         "sweep",
         help="run a deck over a design of experiments: a table of all points",
@@ -29,31 +26,13 @@ def add_sweep(commands: Any) -> None:
     )
     command.set_defaults(action=sweep, about={"sweep": "sweep"})
     command.add_argument("sweep", type=Path, metavar="SWEEP", help="sweep file (YAML)")
-    command.add_argument(
-        "-j",
-        "--jobs",
-        type=workers,
-        default=1,
-        metavar="N",
-        help="processes of this machine (default 1)",
-    )
-    command.add_argument(
-        "--scheduler",
-        metavar="ADDRESS",
-        help="a Dask scheduler, whose workers solve the points: tcp://HOST:PORT or tls://HOST:PORT (extra mbla[dask])",
-    )
-    command.add_argument(
-        "--scheduler-file",
-        type=Path,
-        metavar="F",
-        help="the same, by the file in which the scheduler wrote its address",
-    )
-    command.add_argument(
-        "--shard",
-        type=shard,
-        metavar="I/N",
-        help="only the I-th of N parts, for job arrays; the last to end writes the table",
-    )
+    add_jobs(command)
+    words = "a Dask scheduler, whose workers solve the points: tcp://HOST:PORT or tls://HOST:PORT (extra mbla[dask])"
+    command.add_argument("--scheduler", metavar="ADDRESS", help=words)
+    words = "the same, by the file in which the scheduler wrote its address"
+    command.add_argument("--scheduler-file", type=Path, metavar="F", help=words)
+    words = "only the I-th of N parts, for job arrays; the last to end writes the table"
+    command.add_argument("--shard", type=shard, metavar="I/N", help=words)
     command.add_argument("--resume", action="store_true", help="continue with the journal: solve what is missing")
     command.add_argument("--retry-failed", action="store_true", help="as --resume, and solve failed points again")
     command.add_argument("--dry-run", action="store_true", help="list the points and solve nothing")
@@ -72,37 +51,27 @@ def sweep(options: argparse.Namespace) -> int:
     content = read_sweep(options.sweep, tuple(options.set))
     with loading():
         from mbla.results.record.json_values import json_line
-        from mbla.sweeps.command import dry_run_json, prepare, run_sweep
+        from mbla.sweeps.command import SweepOptions, dry_run_json, prepare, run_sweep
         from mbla.sweeps.design.design import design_lines
+        from mbla.sweeps.engine.engine import EngineOptions
         from mbla.sweeps.words import sweep_lines
 
-    chosen = _sweep_options(options)
+    chosen = SweepOptions(
+        folder=options.output,
+        engine=EngineOptions(options.jobs, options.scheduler or "", options.scheduler_file),
+        shard=options.shard,
+        resume=options.resume or options.retry_failed,
+        force=options.force,
+        retry_failed=options.retry_failed,
+        further=frozenset(form for form in ("parquet", "hdf5") if getattr(options, form)),
+    )
     prepared = prepare(content, chosen)
     if options.dry_run:
         text = [json_line(dry_run_json(prepared))] if options.json else design_lines(prepared.design)
         print("\n".join(text), flush=True)
         return 0
-    finished = solved(options, lambda report: run_sweep(prepared, chosen, report))
-    print_finished(options, finished, [*sweep_lines(finished.record, finished.table), *finished.lines])
-    return finished.exit_code
-
-
-def _sweep_options(options: argparse.Namespace) -> SweepOptions:
-    with loading():
-        from mbla.sweeps.command import SweepOptions
-        from mbla.sweeps.engine.engine import EngineOptions
-
-    return SweepOptions(
-        folder=options.output,
-        engine=EngineOptions(
-            workers=options.jobs,
-            scheduler=options.scheduler or "",
-            scheduler_file=options.scheduler_file,
-        ),
-        shard=options.shard,
-        resume=options.resume or options.retry_failed,
-        force=options.force,
-        retry_failed=options.retry_failed,
-        parquet=options.parquet,
-        hdf5=options.hdf5,
+    return solve_and_print(
+        options,
+        lambda report: run_sweep(prepared, chosen, report),
+        lambda finished: [*sweep_lines(finished.record, finished.table), *finished.lines],
     )

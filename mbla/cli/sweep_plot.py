@@ -10,8 +10,8 @@ from mbla.cli.options import add_page_options, place
 from mbla.process.collector import loading
 
 
-def add_sweep_plot(commands: Any) -> None:
-    """``mbla sweep-plot``."""
+def add(commands: Any) -> None:
+    """The command and its options."""
     command = commands.add_parser(
         "sweep-plot",
         help="pictures of a sweep: curves, maps, distributions (extra mbla[pictures])",
@@ -21,27 +21,17 @@ def add_sweep_plot(commands: Any) -> None:
     )
     command.set_defaults(action=sweep_plot)
     command.add_argument("sweep", type=Path, metavar="SWEEP.out|sweep.csv", help="folder of the sweep, or its table")
-    command.add_argument(
-        "-o",
-        "--output",
-        type=place,
-        metavar="FILE|DIR",
-        help="PNG, SVG or PDF file, by its name, of one picture: the first that suits the table unless --kind "
-        "says which; or a folder (default: that of the sweep)",
+    words = (
+        "PNG, SVG or PDF file, by its name, of one picture: the first that suits the table unless --kind "
+        "says which; or a folder (default: that of the sweep)"
     )
-    command.add_argument(
-        "--kind",
-        metavar="KIND",
-        help="curve, map, distribution, several with commas, or all that fit the table",
-    )
-    command.add_argument(
-        "--result", metavar="NAME", help="column, or key path for all load cases (default: load_factor)"
-    )
-    command.add_argument(
-        "--by",
-        metavar="PARAMETER",
-        help="parameter along the axis of curves and maps, or of the curves of a distribution",
-    )
+    command.add_argument("-o", "--output", type=place, metavar="FILE|DIR", help=words)
+    words = "curve, map, distribution, several with commas, or all that fit the table"
+    command.add_argument("--kind", metavar="KIND", help=words)
+    words = "column, or key path for all load cases (default: load_factor)"
+    command.add_argument("--result", metavar="NAME", help=words)
+    words = "parameter along the axis of curves and maps, or of the curves of a distribution"
+    command.add_argument("--by", metavar="PARAMETER", help=words)
     add_page_options(command)
 
 

@@ -15,7 +15,7 @@ from mbla.process.collector import loading
 if TYPE_CHECKING:
     from mbla.sweeps.command import Finished
     from mbla.sweeps.plan import PointOutcome, Task
-    from mbla.sweeps.words import Progress
+    from mbla.sweeps.words import SweepProgress
 
 NAMED_FAILURES = 20
 """failed points that have a line of their own while the sweep continues; the journal has the reasons of all"""
@@ -23,21 +23,21 @@ BETWEEN_LINES = 10.0
 """seconds between lines of progress where there is no terminal"""
 
 
-def solved(options: argparse.Namespace, solve: Callable[[Any], Finished]) -> Finished:
-    """What a sweep ends with, its progress reported meanwhile."""
-    report = None if options.quiet else _Reporter()
-    try:
-        return solve(report)
-    finally:
-        if report is not None:
-            report.end()
-
-
-def print_finished(options: argparse.Namespace, finished: Finished, lines: Sequence[str]) -> None:
-    """The JSON object where it is asked for, what was found in words, and where the files are."""
+def solve_and_print(
+    options: argparse.Namespace,
+    solve: Callable[[Any], Finished],
+    lines_of: Callable[[Finished], Sequence[str]] = lambda finished: finished.lines,
+) -> int:
+    """Report progress meanwhile, then print the JSON object where it is asked for, words, and where the files are."""
     with loading():
         from mbla.results.record.json_values import json_line
 
+    report = None if options.quiet else _Reporter()
+    try:
+        finished = solve(report)
+    finally:
+        if report is not None:
+            report.end()
     if finished.remark:
         say(f"mbla: {finished.remark}", 0)
     if options.json:
@@ -45,8 +45,9 @@ def print_finished(options: argparse.Namespace, finished: Finished, lines: Seque
     if not options.quiet:
         folder, here = finished.folder, Path.cwd()
         shown = folder.relative_to(here) if folder.is_relative_to(here) else folder
-        text = "\n".join([*lines, f"  files: {shown}/"])
+        text = "\n".join([*lines_of(finished), f"  files: {shown}/"])
         print(text, file=sys.stderr if options.json else sys.stdout, flush=True)
+    return finished.exit_code
 
 
 class _Reporter:
@@ -56,7 +57,7 @@ class _Reporter:
         self._terminal = sys.stderr.isatty()
         self._last = time.monotonic()
 
-    def __call__(self, progress: Progress, task: Task | None, outcome: PointOutcome | None) -> None:
+    def __call__(self, progress: SweepProgress, task: Task | None, outcome: PointOutcome | None) -> None:
         failed = outcome is not None and outcome.state == "failed"
         if task is not None and outcome is not None and failed and progress.failed <= NAMED_FAILURES:
             self.end()

@@ -6,13 +6,14 @@ import argparse
 from pathlib import Path
 from typing import Any
 
-from mbla.cli.given_decks import run_options
+from mbla.cli.given_decks import read_one_deck, run_options
 from mbla.cli.options import add_deck_options, relative_above_zero, seconds, threads
-from mbla.cli.study import run_study
+from mbla.cli.sweep_progress import solve_and_print
+from mbla.process.collector import loading
 
 
-def add_tradeoff(commands: Any) -> None:
-    """``mbla tradeoff``."""
+def add(commands: Any) -> None:
+    """The command and its options."""
     command = commands.add_parser(
         "tradeoff",
         help="speed against accuracy on a deck: table, CSV and plot",
@@ -27,27 +28,12 @@ def add_tradeoff(commands: Any) -> None:
     command.add_argument("deck", type=Path, metavar="DECK")
     command.add_argument("--case", action="append", default=[], metavar="NAME", help="only this load case (repeatable)")
     add_deck_options(command, "for every setting", default="DECK_tradeoff.out")
-    command.add_argument(
-        "--knob",
-        action="append",
-        default=[],
-        metavar="KEY.PATH=V,V,...",
-        help="instead of the ladder: a setting for each value; of several, every combination (repeatable)",
-    )
-    command.add_argument(
-        "--setting",
-        action="append",
-        default=[],
-        metavar="'NAME: KEY.PATH=V ...'",
-        help="instead of the ladder: one setting under a name of its own (repeatable)",
-    )
-    command.add_argument(
-        "--wanted-error",
-        type=relative_above_zero,
-        default=1e-4,
-        metavar="E",
-        help="relative error for which a setting is advised (default 1e-4)",
-    )
+    words = "instead of the ladder: a setting for each value; of several, every combination (repeatable)"
+    command.add_argument("--knob", action="append", default=[], metavar="KEY.PATH=V,V,...", help=words)
+    words = "instead of the ladder: one setting under a name of its own (repeatable)"
+    command.add_argument("--setting", action="append", default=[], metavar="'NAME: KEY.PATH=V ...'", help=words)
+    words = "relative error for which a setting is advised (default 1e-4)"
+    command.add_argument("--wanted-error", type=relative_above_zero, default=1e-4, metavar="E", help=words)
     command.add_argument("--time-limit", type=seconds, metavar="S", help="seconds for all settings together")
     command.add_argument("--run-limit", type=seconds, metavar="S", help="seconds for each setting")
     command.add_argument("--threads", type=threads, default=1, metavar="N", help="as of mbla run (default 1)")
@@ -56,10 +42,9 @@ def add_tradeoff(commands: Any) -> None:
 
 def tradeoff(options: argparse.Namespace) -> int:
     """Measure a deck under many settings; the table goes to standard output, with ``--json`` the object alone."""
+    run = run_options(options, override=False)
+    deck = read_one_deck(options.deck, run)
+    with loading():
+        from mbla.sweeps.tradeoff.study import tradeoff as study
 
-    def study() -> Any:
-        from mbla.sweeps.tradeoff.study import tradeoff
-
-        return tradeoff
-
-    return run_study(options, run_options(options, override=False), study)
+    return solve_and_print(options, lambda report: study(deck, run, options, report))

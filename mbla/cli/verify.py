@@ -9,18 +9,17 @@ from mbla.cli.options import result_command
 from mbla.process.collector import loading
 
 
-def add_verify(commands: Any) -> None:
-    """``mbla verify``."""
+def add(commands: Any) -> None:
+    """The command and its options."""
     command = result_command(
         commands, "verify", verify, "recompute residuals and bounds from a result file alone, with no solver"
     )
-    command.add_argument(
-        "--again",
-        action="store_true",
-        help="follow each path of elastic joints anew from the deck in the file, by other steps and with joints of "
+    words = (
+        "follow each path of elastic joints anew from the deck in the file, by other steps and with joints of "
         "another stiffness in shear, and each pushover: whether the history in the file is that of the loading (needs "
-        "the solver, and as long as the run)",
+        "the solver, and as long as the run)"
     )
+    command.add_argument("--again", action="store_true", help=words)
 
 
 def verify(options: argparse.Namespace) -> int:

@@ -14,7 +14,7 @@ from mbla.sweeps.file.read import read_sweep as read_file
 from mbla.sweeps.plan import PointOutcome, Task
 from mbla.sweeps.tables.sweep_json import read_sweep_table
 from mbla.sweeps.tables.sweep_table import SweepTable
-from mbla.sweeps.words import Progress
+from mbla.sweeps.words import SweepProgress
 
 
 def sweep(
@@ -75,7 +75,7 @@ def sweep(
         retry_failed=retry_failed,
     )
 
-    def report(state: Progress, task: Task | None, outcome: PointOutcome | None) -> None:
+    def report(state: SweepProgress, task: Task | None, outcome: PointOutcome | None) -> None:
         if progress is not None:
             progress(state.earlier + state.done, state.earlier + state.total)
 

@@ -14,11 +14,11 @@ from mbla.deck.text.overrides import LABEL, RefusedError
 from mbla.deck.text.tree import Tree
 from mbla.errors import DeckError, Fault, FileError, KeyPath, Message, Place
 from mbla.sweeps.base_rules import base_faults
-from mbla.sweeps.design.design import DesignPoint, Sources, Vector
-from mbla.sweeps.file.content import DIRECTIONS, key_paths, way_of
+from mbla.sweeps.design.design import DesignPoint, Sources, TurnedVector
+from mbla.sweeps.file.content import DIRECTIONS, way_of
 from mbla.sweeps.file.read import Sweep
 from mbla.sweeps.file.rules import key_places
-from mbla.sweeps.identity import PointKeys, deck_fingerprint, effective_tree
+from mbla.sweeps.identity import deck_fingerprint, effective_tree
 from mbla.sweeps.plan import override_texts
 
 
@@ -33,7 +33,7 @@ class Base:
     tree        : the same as read, not evaluated
     cases       : names of the load cases to solve, in the order of the results
     paths       : key paths of each parameter in the deck, by the parameter's name
-    fingerprint : hash of what the deck means (``fingerprint.py``)
+    fingerprint : hash of what the deck means (``identity.py``)
     """
 
     sweep: Sweep
@@ -51,7 +51,7 @@ class Base:
         return {name: self._unit(name) for name in self.paths}
 
     @cached_property
-    def vectors(self) -> Mapping[str, Vector]:
+    def vectors(self) -> Mapping[str, TurnedVector]:
         """Vector of the base deck that each parameter with directions turns, by its name."""
         parameters = self.sweep.content.parameters
         turning = [name for name in self.paths if way_of(parameters[name]) in DIRECTIONS]
@@ -63,13 +63,6 @@ class Base:
         """What the design is made from."""
         known: Mapping[str, object] = self.tree.data.get("parameters", {})
         return Sources(self.sweep.content, self.vectors, self.units, known, self.sweep.fault_at)
-
-    @cached_property
-    def keys(self) -> PointKeys:
-        """What makes the keys of points."""
-        named = ((key_paths(name, self.sweep.content.parameters[name]), paths) for name, paths in self.paths.items())
-        path_of = {key: path for keys, paths in named for key, path in zip(keys, paths, strict=True)}
-        return PointKeys(self.fingerprint, self.path.parent, path_of.__getitem__)
 
     def _unit(self, name: str) -> str:
         parameter = self.sweep.content.parameters[name]
@@ -93,13 +86,11 @@ def read_base(sweep: Sweep) -> Base:
         raise DeckError([_at_its_place(sweep, fault) for fault in error.faults]) from error
     tree = effective_tree(path, fixed)
     cases = tuple(sweep.content.cases or deck.content.load_cases)
-    faults = [
-        sweep.fault_at(
-            ("cases", index), Message("unknown-name", unknown("load case", case, deck.content.load_cases, "known"))
-        )
-        for index, case in enumerate(sweep.content.cases or ())
-        if case not in deck.content.load_cases
-    ]
+    known, faults = deck.content.load_cases, list[Fault]()
+    for index, case in enumerate(sweep.content.cases or ()):
+        if case not in known:
+            message = Message("unknown-name", unknown("load case", case, known, "known"))
+            faults.append(sweep.fault_at(("cases", index), message))
     paths = _paths(sweep, tree, faults)
     if faults:
         raise DeckError(faults)
@@ -169,11 +160,6 @@ def check_points(base: Base, points: Sequence[DesignPoint]) -> None:
             return
     where = "first, middle and last point" if len(tried) > 1 else "only point"
     said = f"the deck is refused at the {where}: "
-    raise DeckError(
-        [
-            base.sweep.fault_at(
-                ("parameters",), fault.message.around(before=f"{said}{fault.key}: " if fault.key else said)
-            )
-            for fault in refused[0].faults
-        ]
-    )
+    befores = ((fault, f"{said}{fault.key}: " if fault.key else said) for fault in refused[0].faults)
+    messages = [fault.message.around(before=before) for fault, before in befores]
+    raise DeckError([base.sweep.fault_at(("parameters",), message) for message in messages])

@@ -31,9 +31,6 @@ if TYPE_CHECKING:
 UNUSED = re.compile(r" (\w+)\.(\S+) is not used$")
 """end of the notices on names that nothing uses"""
 
-Given = tuple[KeyPath, Any]
-"""Place of a value in the sweep file, and the value"""
-
 
 def base_faults(base: Base) -> list[Fault]:
     """Everything wrong with what a sweep does to its base deck, where each of its keys is known to exist."""
@@ -143,11 +140,9 @@ def _columns(base: Base) -> Iterator[Finding]:
     for name, parameter in content.parameters.items():
         for column in (f"{name}_azimuth", f"{name}_elevation") if parameter.sphere is not None else (name,):
             if column in owners:
-                message = (
-                    f"column {column} of the table would be there twice, it is {owners[column]}: "
-                    "choose another name, and give the key path with key"
-                )
-                yield Finding("sweep-columns", message, "parameters", name)
+                message = f"column {column} of the table would be there twice, it is {owners[column]}"
+                remedy = "choose another name, and give the key path with key"
+                yield Finding("sweep-columns", f"{message}: {remedy}", "parameters", name)
             owners.setdefault(column, f"that of parameter {name}")
 
 
@@ -188,8 +183,8 @@ def _values(base: Base) -> Iterator[Fault]:
                 yield from _in_words(base, place, key, value)
 
 
-def _given(name: str, parameter: Parameter) -> Iterator[Given]:
-    """Values of a parameter that the sweep file has literally."""
+def _given(name: str, parameter: Parameter) -> Iterator[tuple[KeyPath, Any]]:
+    """Values of a parameter that the sweep file has literally, each with its place in the file."""
     place: KeyPath = ("parameters", name, way_of(parameter))
     for index, value in enumerate(parameter.values or ()):
         yield (*place, index), value

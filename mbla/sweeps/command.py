@@ -7,11 +7,12 @@ from collections.abc import Callable, Mapping, Sequence
 from contextlib import closing
 from dataclasses import dataclass, field
 from datetime import UTC, datetime
-from functools import partial
+from functools import cached_property, partial
 from pathlib import Path
 from typing import Any
 
 from mbla import __version__
+from mbla.deck import Deck
 from mbla.errors import Notice, UsageError
 from mbla.results.listing.text import counted
 from mbla.sweeps.base import check_points, read_base
@@ -21,22 +22,21 @@ from mbla.sweeps.engine.engine import EngineOptions, check_options, outcomes_of
 from mbla.sweeps.file.content import FragilitySection
 from mbla.sweeps.file.read import Sweep
 from mbla.sweeps.fragility import fragility_csv, fragility_lines, fragility_of
-from mbla.sweeps.identity import library_versions, program_identity
+from mbla.sweeps.identity import PointKeys, library_versions
 from mbla.sweeps.journal import SINGLE, JournalHeader, journal_name, journals_in, merged, open_journal
-from mbla.sweeps.plan import FAILED, Plan, PointOutcome, Task, as_named
+from mbla.sweeps.plan import FAILED, MEGABYTE, Plan, PointOutcome, Task, as_named
 from mbla.sweeps.results import result_columns
 from mbla.sweeps.tables.sweep_json import counts, sweep_json
 from mbla.sweeps.tables.sweep_table import SweepColumn, SweepTable, sweep_table, with_columns
-from mbla.sweeps.tables.write_tables import FRAGILITY, StudyResult, TableFiles, refuse_tables, write_tables
-from mbla.sweeps.words import Progress
+from mbla.sweeps.tables.write_tables import FRAGILITY, FURTHER, StudyResult, refuse_tables, write_tables
+from mbla.sweeps.words import SweepProgress
 
 FAILED_POINTS = 8
 """exit status of a sweep some of whose points failed"""
-MEGABYTE = 1e6
 RESUME = "--resume continues"
 """words on finished points in a journal"""
 
-Report = Callable[[Progress, Task | None, PointOutcome | None], None]
+Report = Callable[[SweepProgress, Task | None, PointOutcome | None], None]
 """called once before the first point, with None, and after each finished point"""
 
 
@@ -49,6 +49,7 @@ class SweepOptions:
     resume       : continue with the journal that is there
     force        : start over and replace earlier files
     retry_failed : on resuming, solve failed points again
+    further      : files of ``FURTHER`` that are written in addition to those of the sweep file
     goes_on      : how a sweep that was broken off is continued, in words
     """
 
@@ -58,8 +59,7 @@ class SweepOptions:
     resume: bool = False
     force: bool = False
     retry_failed: bool = False
-    parquet: bool = False
-    hdf5: bool = False
+    further: frozenset[str] = frozenset()
     goes_on: str = RESUME
 
     def folder_for(self, path: Path) -> Path:
@@ -71,22 +71,31 @@ class SweepOptions:
 class Prepared:
     """A sweep that could begin.
 
-    name, deck : sweep file and base deck as the user names them
-    keys       : of each point of the design, in its order
-    columns    : of results
-    files      : that are written next to sweep.csv and sweep.json
-    study_of   : what follows from the table of all points
+    name     : of the sweep file, or of the command that makes the sweep by itself
+    base     : the base deck; ``deck`` is its name as the user gives it
+    study_of : what follows from the table of all points
+    further  : files of ``FURTHER`` that are written next to sweep.csv and sweep.json
     """
 
     name: str
     deck: str
     title: str
+    base: Deck
     design: Design
-    keys: tuple[str, ...]
-    columns: tuple[SweepColumn, ...]
     plan: Plan
-    files: TableFiles
     study_of: Callable[[SweepTable], StudyResult]
+    further: frozenset[str] = frozenset()
+
+    @cached_property
+    def keys(self) -> tuple[str, ...]:
+        """Key of each point of the design, in its order."""
+        keys = PointKeys(self.plan.fingerprint, self.base)
+        return tuple(keys.of(point.settings) for point in self.design.points)
+
+    @property
+    def columns(self) -> tuple[SweepColumn, ...]:
+        """Columns of results."""
+        return result_columns(self.plan.results, self.plan.cases, self.base.units)
 
     @property
     def tasks(self) -> tuple[Task, ...]:
@@ -103,48 +112,38 @@ class Finished:
 
     record: dict[str, Any]
     table: SweepTable
-    exit_code: int
     folder: Path
     lines: Sequence[str] = ()
     remark: str = ""
+
+    @property
+    def exit_code(self) -> int:
+        """Exit status of the command."""
+        return int(self.record["exit_code"])
 
 
 def prepare(sweep: Sweep, options: SweepOptions) -> Prepared:
     """Read the base deck of a sweep file, and make the points.
 
-    Raises
-    ------
-    DeckError, FileError
-        with everything that is wrong with either file
+    Raises DeckError and FileError with everything that is wrong with either file.
     """
-    base = read_base(sweep)
-    content = sweep.content
-    design = design_of(base.sources)
+    base, content = read_base(sweep), sweep.content
+    design, memory = design_of(base.sources), content.limits.memory
     check_points(base, design.points)
-    limits, output = content.limits, content.output
     plan = Plan(
         deck=str(base.deck.path.absolute()),
         fingerprint=base.fingerprint,
         fixed=base.fixed,
         cases=base.cases,
         results=tuple(content.results),
-        keep=output.files,
+        keep=content.output.files,
         folder=str(options.folder_for(sweep.path).absolute()),
-        time_limit=limits.time,
-        memory_limit=None if limits.memory is None else limits.memory * MEGABYTE,
-        program=program_identity(),
+        time_limit=content.limits.time,
+        memory_limit=None if memory is None else memory * MEGABYTE,
     )
-    return Prepared(
-        name=sweep.path.name,
-        deck=content.deck,
-        title=content.title,
-        design=design,
-        keys=tuple(base.keys.of(point.settings) for point in design.points),
-        columns=result_columns(content.results, base.cases, base.deck.units),
-        plan=plan,
-        files=TableFiles(output.parquet or options.parquet, output.hdf5 or options.hdf5),
-        study_of=partial(_fragility, content.fragility),
-    )
+    further = options.further | {name for name in FURTHER if getattr(content.output, name)}
+    study_of = partial(_fragility, content.fragility)
+    return Prepared(sweep.path.name, content.deck, content.title, base.deck, design, plan, study_of, further)
 
 
 def _fragility(asked: FragilitySection | None, table: SweepTable) -> StudyResult:
@@ -159,28 +158,23 @@ def _fragility(asked: FragilitySection | None, table: SweepTable) -> StudyResult
 def run_sweep(prepared: Prepared, options: SweepOptions, report: Report | None = None) -> Finished:
     """Solve what is not solved yet, row by row into the journal, and write the table.
 
-    Raises
-    ------
-    UsageError
-        no engine, or a worker that does not fit
-    FileError
-        another run is at work, files are in the way or cannot be written; what was solved is in the journal
+    Raises UsageError: no engine, or a worker that does not fit. Raises FileError: another run is at work, files are in
+    the way or cannot be written; what was solved is in the journal.
     """
     started = time.perf_counter()
     plan, folder = prepared.plan, Path(prepared.plan.folder)
     deck = {"base deck": plan.fingerprint[:16], "load cases": " ".join(plan.cases)}
-    header = JournalHeader(
-        {**deck, "mbla": plan.program, **library_versions()}, {each.name: each.kind for each in prepared.columns}
-    )
+    columns = {column.name: column.kind for column in prepared.columns}
+    header = JournalHeader({**deck, "mbla": plan.program, **library_versions()}, columns)
     part, parts = options.shard or (1, 1)
     asked = prepared.tasks[part - 1 :: parts]  # neighbours take about equal times, and so do shards then
     path = folder / (SINGLE if options.shard is None else journal_name(part, parts))
     check_options(options.engine)
-    refuse_tables(folder, prepared.files, replace=options.force or options.resume)
+    refuse_tables(folder, prepared.further, replace=options.force or options.resume)
     how = {"resume": options.resume, "force": options.force, "retry_failed": options.retry_failed}
     with open_journal(path, header, **how) as journal:
         tasks = {task.key: task for task in asked if task.key not in journal.finished}
-        progress = Progress(len(tasks), len(journal.finished))
+        progress = SweepProgress(len(tasks), len(journal.finished))
         if report is not None:
             report(progress, None, None)
         try:
@@ -191,15 +185,13 @@ def run_sweep(prepared: Prepared, options: SweepOptions, report: Report | None =
                     progress.add(outcome.state == FAILED)
                     if report is not None:
                         report(progress, task, journal.finished[outcome.key])
-        except (
-            BaseException
-        ) as error:  # an error that ends a sweep says how much of it is kept, where its own words do not
+        except BaseException as error:  # says how much of the sweep is kept, where its own words do not
             if not isinstance(error, UsageError) and RESUME not in str(error):
                 kept = counted(len(journal.finished), "finished point")
                 error.add_note(f"{kept} in the journal, {options.goes_on}")
             raise
-        finished = journal.finished | ({} if options.shard is None else merged(journals_in(folder), header))
-        return _finish(prepared, finished, journal.notices, time.perf_counter() - started)
+        of_shards = merged(() if options.shard is None else journals_in(folder), header)
+        return _finish(prepared, journal.finished | of_shards, journal.notices, time.perf_counter() - started)
 
 
 def _finish(
@@ -224,8 +216,8 @@ def _finish(
     record |= study.record
     remark, folder = "", Path(prepared.plan.folder)
     if not counts(table)["unfinished"]:
-        record, remark = write_tables(folder, record, table, prepared.files, study)
-    return Finished(record, table, record["exit_code"], folder, study.lines, remark)
+        record, remark = write_tables(folder, record, table, prepared.further, study)
+    return Finished(record, table, folder, study.lines, remark)
 
 
 def dry_run_json(prepared: Prepared) -> dict[str, Any]:

@@ -58,19 +58,9 @@ def fragility_of(table: SweepTable, result: str, demands: Sequence[float], confi
                 probability = [below / points, (below + unknown) / points]
                 ends = list(interval(below, unknown, points, confidence))
                 counts.append({"demand": demand, "below": below, "probability": probability, "interval": ends})
-            found.append(
-                {
-                    "result": column.name,
-                    "unit": column.unit,
-                    "at": at,
-                    "sampling": table.sampling,
-                    "confidence": confidence,
-                    "points": points,
-                    "left_out": size - points,
-                    "unknown": unknown,
-                    "demands": counts,
-                }
-            )
+            one: dict[str, Any] = {"result": column.name, "unit": column.unit, "at": at, "sampling": table.sampling}
+            one |= {"confidence": confidence, "points": points, "left_out": size - points}
+            found.append(one | {"unknown": unknown, "demands": counts})
     return found
 
 
@@ -126,12 +116,8 @@ def fragility_lines(found: Sequence[Mapping[str, Any]], of: SweepTable) -> list[
     return lines + (sentence(UNKNOWN) if any(one["unknown"] for one in found) else [])
 
 
-SHORT = {
-    "probability_least": "at least",
-    "probability_greatest": "at most",
-    "interval_lower": "from",
-    "interval_upper": "to",
-}
+SHORT = {"probability_least": "at least", "probability_greatest": "at most"}
+SHORT |= {"interval_lower": "from", "interval_upper": "to"}
 """names of columns on the terminal"""
 
 

@@ -23,8 +23,6 @@ from mbla.errors import DeckError, FileError, KeyPath
 WITHOUT_EFFECT = ("title", "output", "expected", "include")
 """keys that do not change what a deck gives; what `include` names is merged in"""
 
-Resolve = Callable[[KeyPath, str], Path]
-
 
 def effective_tree(path: Path, overrides: Sequence[str]) -> Tree:
     """A deck as read, with what it includes and with overrides in it, not evaluated.
@@ -56,7 +54,7 @@ def deck_fingerprint(deck: Deck, tree: Tree) -> str:
     return _hash([canonical(content), *file_hashes(side_files(content), deck.resolve_file)])
 
 
-def file_hashes(named: Iterable[tuple[KeyPath, str]], resolve_file: Resolve) -> list[str]:
+def file_hashes(named: Iterable[tuple[KeyPath, str]], resolve_file: Callable[[KeyPath, str], Path]) -> list[str]:
     """Place and hash of each file, in the order of places."""
     return sorted(f"{key_text(path)} {_file_hash(resolve_file(path, name))}" for path, name in named)
 
@@ -76,19 +74,17 @@ class PointKeys:
     """Keys of points: hash of the base deck, of the values set in it, and of the files that these name.
 
     fingerprint : of the base deck
-    folder      : of the base deck, in which the files are
-    path_of     : from the key path of a value to its path in the deck
+    deck        : the base deck, in whose folder the files are
     """
 
     fingerprint: str
-    folder: Path
-    path_of: Callable[[str], KeyPath]
+    deck: Deck
     _files: dict[tuple[KeyPath, str], str] = field(default_factory=dict, repr=False, compare=False)
 
     def of(self, settings: Mapping[str, Any]) -> str:
         """Key of a point, 64 hex digits."""
         texts = ((key, value) for key, value in settings.items() if isinstance(value, str | list | dict))
-        named = [each for key, value in texts for each in side_files(value, self.path_of(key))]
+        named = [each for key, value in texts for each in side_files(value, path_in(self.deck, key))]
         return key_hash(self.fingerprint, settings, sorted(map(self._line, named)))
 
     def _line(self, named: tuple[KeyPath, str]) -> str:
@@ -102,7 +98,7 @@ class PointKeys:
 
     def _side_file(self, path: KeyPath, name: str) -> Path:
         """A file that a point names: relative to the deck, as what ``--set`` sets; raises FileError for none."""
-        found = confined(self.folder, name)
+        found = confined(self.deck.path.resolve().parent, name)
         check_regular(found)
         return found
 

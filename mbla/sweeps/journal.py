@@ -21,15 +21,7 @@ from typing import Any, NamedTuple
 
 from mbla.errors import FileError, Notice, UsageError
 from mbla.process.signals import held_signals
-from mbla.results.disk import (
-    AT_WORK,
-    file_errors,
-    flush_to_disk,
-    holder,
-    locked,
-    missing_folders,
-    write_complete,
-)
+from mbla.results.disk import AT_WORK, file_errors, flush_to_disk, holder, locked, missing_folders, write_complete
 from mbla.sweeps.identity import difference
 from mbla.sweeps.plan import DONE, FAILED, Plain, PointOutcome, Task
 from mbla.sweeps.tables.sweep_table import READ_CELL
@@ -75,9 +67,8 @@ def header_bytes(header: JournalHeader) -> bytes:
 
 def row_bytes(header: JournalHeader, task: Task, outcome: PointOutcome) -> bytes:
     """The line of a point with its end."""
-    first: list[Plain] = [outcome.key, task.number, outcome.state, outcome.exit_code, outcome.reason]
-    results = [outcome.results.get(name) for name in header.columns]
-    return _line([*first, outcome.tries, outcome.seconds, *results, json.dumps(dict(task.settings))])
+    first = (outcome.key, task.number, outcome.state, outcome.exit_code, outcome.reason, outcome.tries, outcome.seconds)
+    return _line([*first, *map(outcome.results.get, header.columns), json.dumps(dict(task.settings))])
 
 
 def _line(cells: Sequence[Plain]) -> bytes:
@@ -123,10 +114,8 @@ class JournalRows(NamedTuple):
 def read_journal(path: Path, header: JournalHeader) -> JournalRows:
     """Every complete row of a journal.
 
-    Raises
-    ------
-    FileError
-        it cannot be read, belongs to another sweep than ``header`` says, or has a broken row before the last
+    Raises FileError where it cannot be read, is of another sweep than ``header`` says, or has a broken row before the
+    last.
     """
     finished: dict[str, PointOutcome] = {}
     with file_errors(path), path.open("rb") as stream:
@@ -166,21 +155,18 @@ def _check_header(path: Path, header: JournalHeader, first: bytes, second: bytes
     """Bytes of the header. Raises FileError where it is not the wanted one."""
     try:
         record: Any = json.loads(first.decode("utf-8").removeprefix("# "))
-        version = record.pop("mbla_sweep_journal")
-        if version != FORMAT:
+        if record.pop("mbla_sweep_journal") != FORMAT:
             raise ValueError
         found = JournalHeader(**record)
         if second != _line(found.all_columns):
             raise ValueError
     except (ValueError, KeyError, TypeError, AttributeError) as error:
-        raise FileError(
-            "journal-damaged", f"{path}: is no journal of a sweep of format {FORMAT}; {BEGIN_ANEW}"
-        ) from error
+        words = f"{path}: is no journal of a sweep of format {FORMAT}; {BEGIN_ANEW}"
+        raise FileError("journal-damaged", words) from error
     ours, theirs = ({**each.belongs, "results": " ".join(each.columns)} for each in (header, found))
-    if words := difference(ours, theirs):
-        raise FileError(
-            "journal-of-another-sweep", f"{path}: of another sweep ({words}): it cannot be continued; {BEGIN_ANEW}"
-        )
+    if other := difference(ours, theirs):
+        words = f"{path}: of another sweep ({other}): it cannot be continued; {BEGIN_ANEW}"
+        raise FileError("journal-of-another-sweep", words)
     return len(first) + len(second)
 
 
@@ -198,9 +184,7 @@ def journals_in(folder: Path) -> tuple[Path, ...]:
         names = [path.name for path in folder.iterdir()]
     except (FileNotFoundError, NotADirectoryError):
         return ()
-    shards = sorted(
-        (int(match["parts"]), int(match["part"]), match[0]) for name in names if (match := _SHARD.fullmatch(name))
-    )
+    shards = sorted((int(at["parts"]), int(at["part"]), at[0]) for at in filter(None, map(_SHARD.fullmatch, names)))
     return tuple(folder / name for name in (*([SINGLE] if SINGLE in names else []), *(name for *_, name in shards)))
 
 
@@ -211,8 +195,7 @@ def journals_in(folder: Path) -> tuple[Path, ...]:
 class Journal:
     """A journal that is being written.
 
-    finished   : the outcome of every finished point by its key: what the journals of the folder held, where they are
-                 continued, and what was added since; results without a value are None
+    finished   : by key the outcome of every point of the journals that are continued, and of those added since
     notices    : what was repaired
     descriptor : of the open file
     """
@@ -226,10 +209,8 @@ class Journal:
     def add(self, task: Task, outcome: PointOutcome) -> None:
         """Write the row of a finished point; it is on the disk when this returns.
 
-        Raises
-        ------
-        FileError
-            it could not be written; the journal ends with its last complete row then, or will when it is continued
+        Raises FileError where it could not be written; the journal ends with its last complete row then, or will when
+        it is continued.
         """
         row = row_bytes(self.header, task, outcome)
         kept = read_row(self.header, row)  # before the row is written: an interruption then hardly ever comes between
@@ -253,51 +234,29 @@ def open_journal(
 ) -> Iterator[Journal]:
     """The journal in a ``with`` block, which no other process writes, and an unsharded run is alone in its folder.
 
-    Parameters
-    ----------
-    path
-        ``journal.csv`` of an unsharded run, or as ``journal_name`` for a shard; its folder is made if missing.
-    resume
-        Go on with this journal, and take the finished points of every other one in the folder as finished, whatever
-        shards they are of. Where there is none, it begins.
-    force
-        Begin anew: the earlier journal is replaced by the new one, and an unsharded run removes those of shards as
-        well.
-    retry_failed
-        Points that failed are not finished; their rows stay, and the last one of a point counts.
+    path         : ``journal.csv`` of an unsharded run, else as ``journal_name``; its folder is made if missing
+    resume       : continue it where it is there; points that any journal of the folder has are finished
+    force        : begin anew: the earlier journal is replaced, and an unsharded run removes those of shards as well
+    retry_failed : points that failed are not finished; their rows stay, and the last one of a point counts
 
-    Raises
-    ------
-    UsageError
-        Both ``resume`` and ``force``: one keeps what the other drops.
-    FileError
-        Another run is at work; there is a journal and neither ``resume`` nor ``force`` is set; it is of another sweep
-        or program, or has a broken row; it cannot be written.
+    Raises UsageError for both ``resume`` and ``force``, FileError where another run is at work, a journal is in the
+    way, is of another sweep or program, has a broken row, or cannot be written.
     """
     if resume and force:
         raise UsageError("sweep-option", "--resume continues the journal and --force starts over: one of them")
     folder, shard = path.parent, _SHARD.fullmatch(path.name) is not None
-    _make_folder(folder)
     with contextlib.ExitStack() as stack:
-        with held_signals():
-            stack.enter_context(locked(folder / _SWEEP, shared=shard, busy=lambda: _who_is_in(folder)))
-            stack.enter_context(locked(path))
+        _hold(stack, path, shared=shard)
         others = [each for each in journals_in(folder) if each != path]
         earlier = [each for each in (path, *(() if shard else others)) if os.path.lexists(each)]
         if earlier and not resume and not force:
             raise FileError("sweep-exists", f"{earlier[0]}: exists already; --resume continues it, {BEGIN_ANEW}")
         own = read_journal(path, header) if resume and path in earlier else None
         finished = {} if own is None else own.finished
-        for outcome in merged(others, header).values() if resume else ():
+        for outcome in merged(others if resume else (), header).values():
             keep(finished, outcome)
-        if own is None:  # in place of an earlier one only once its header is complete
-            write_complete(path, header_bytes(header))
-            with file_errors(folder):
-                flush_to_disk(folder)
-        for each in () if resume else earlier:
-            if each != path:
-                with file_errors(each):
-                    each.unlink()
+        if own is None:
+            _begin(path, header, () if resume else earlier)
         with file_errors(path):
             descriptor = os.open(path, os.O_RDWR | os.O_APPEND | os.O_CLOEXEC)
             stack.callback(os.close, descriptor)
@@ -306,26 +265,36 @@ def open_journal(
                 os.fsync(descriptor)
         if retry_failed:
             finished = {key: outcome for key, outcome in finished.items() if outcome.state != FAILED}
-        yield Journal(path, header, finished, _repaired(path, own), descriptor)
+        torn = 0 if own is None else own.torn
+        words = f"{path}: its last row was incomplete and was cut off ({torn} bytes); the point is solved again"
+        notices = (Notice("notice", "journal-repaired", words),) if torn else ()
+        yield Journal(path, header, finished, notices, descriptor)
 
 
-def _repaired(path: Path, own: JournalRows | None) -> tuple[Notice, ...]:
-    if own is None or not own.torn:
-        return ()
-    words = f"its last row was incomplete and was cut off ({own.torn} bytes); the point is solved again"
-    return (Notice("notice", "journal-repaired", f"{path}: {words}"),)
+def _begin(path: Path, header: JournalHeader, earlier: Sequence[Path]) -> None:
+    """An empty journal, in place of earlier ones only once its header is complete."""
+    write_complete(path, header_bytes(header))
+    with file_errors(path.parent):
+        flush_to_disk(path.parent)
+    for each in earlier:
+        if each != path:
+            with file_errors(each):
+                each.unlink()
 
 
-def _make_folder(folder: Path) -> None:
-    """The folder, with names that outlast a loss of power."""
+def _hold(stack: contextlib.ExitStack, path: Path, *, shared: bool) -> None:
+    """The folder of a journal, with names that outlast a loss of power, and the journal; held until the stack ends."""
+    folder = path.parent
     with file_errors(folder):
         missing = missing_folders(folder)
         folder.mkdir(parents=True, exist_ok=True)
-        for path in missing:
-            flush_to_disk(path.parent)
+        for each in missing:
+            flush_to_disk(each.parent)
+    with held_signals():
+        stack.enter_context(locked(folder / _SWEEP, shared=shared, busy=lambda: _who_is_in(folder)))
+        stack.enter_context(locked(path))
 
 
 def _who_is_in(folder: Path) -> str:
-    holders = [(path, holder(path)) for path in journals_in(folder)]
-    busy = [f"{path}: {who} {AT_WORK}" for path, who in holders if who]
+    busy = [f"{path}: {who} {AT_WORK}" for path in journals_in(folder) if (who := holder(path))]
     return "\n".join(busy) or f"{folder}: another sweep {AT_WORK}"

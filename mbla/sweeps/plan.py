@@ -5,11 +5,12 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TypeAlias
 
 from mbla.deck.text.overrides import LABEL
+from mbla.sweeps.identity import program_identity
 
 Plain: TypeAlias = "bool | int | float | str | list[Plain] | dict[str, Plain] | None"
 """what JSON holds, numbers finite"""
@@ -38,11 +39,11 @@ class Plan:
     fixed: tuple[str, ...]
     cases: tuple[str, ...]
     results: tuple[str, ...]
-    keep: str
-    folder: str
-    time_limit: float | None
-    memory_limit: float | None
-    program: str
+    keep: str = "none"
+    folder: str = ""
+    time_limit: float | None = None
+    memory_limit: float | None = None
+    program: str = field(default_factory=program_identity)
     timed: bool = False
 
 
@@ -61,6 +62,7 @@ class Task:
 
 
 DONE, FAILED = "done", "failed"
+MEGABYTE = 1e6
 
 
 @dataclass(frozen=True)

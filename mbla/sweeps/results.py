@@ -27,12 +27,8 @@ OWN_COLUMNS = ("point", "state", "exit_code", "reason", "tries", "seconds")
 """columns that every table of a sweep has in addition to those of parameters and results"""
 STATUS = "status"
 FACTORS = (
-    "load_factor",
-    "least_load_factor",
-    "torsion_load_factor",
-    "static_bound",
-    "kinematic_bound",
-    "associative_load_factor",
+    *("load_factor", "least_load_factor", "torsion_load_factor", "associative_load_factor"),
+    *("static_bound", "kinematic_bound"),
 )
 """results that are load factors: they have a place on their axis for a structure that does not stand, and for one that
 no load brings down, which their status says"""
@@ -87,11 +83,8 @@ def _of_series(series: Mapping[str, Any], cases: Mapping[str, Mapping[str, Any]]
         time = {key: sum(each[key] or 0.0 for each in own) for key in ("total", "solver")}
         return {**cases[series["worst"]["case"]], **series, "time": time}
     statuses = [position["status"] for position in series["positions"]]
-    unknown = [
-        position["status"]
-        for position in series["positions"]
-        if position["load_factor"] is None and position["status"] != UNBOUNDED
-    ]
+    without = [position["status"] for position in series["positions"] if position["load_factor"] is None]
+    unknown = [status for status in without if status != UNBOUNDED]
     return {"status": (unknown or statuses or [None])[0], **series}
 
 

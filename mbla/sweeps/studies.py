@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -13,12 +12,11 @@ from mbla.results.listing.text import INDENT
 from mbla.sweeps.command import Prepared, SweepOptions
 from mbla.sweeps.design.design import Design, DesignDimension, DesignPoint
 from mbla.sweeps.engine.engine import EngineOptions
-from mbla.sweeps.identity import PointKeys, fingerprint_of, path_in, program_identity
+from mbla.sweeps.identity import fingerprint_of
 from mbla.sweeps.journal import SINGLE
 from mbla.sweeps.plan import Plain, Plan
-from mbla.sweeps.results import result_columns
 from mbla.sweeps.tables.sweep_table import SweepColumn, SweepTable
-from mbla.sweeps.tables.write_tables import StudyResult, TableFiles, refuse_tables
+from mbla.sweeps.tables.write_tables import StudyResult, refuse_tables
 
 
 def study_options(deck: Deck, run: RunOptions, name: str, engine: EngineOptions) -> SweepOptions:
@@ -27,56 +25,33 @@ def study_options(deck: Deck, run: RunOptions, name: str, engine: EngineOptions)
     Raises FileError where an earlier study is in the way.
     """
     folder = run.folder or deck.path.with_name(f"{deck.path.stem}_{name}.out")
-    refuse_tables(folder, TableFiles(), replace=run.force)
+    refuse_tables(folder, (), replace=run.force)
     resume = not run.force and (folder / SINGLE).exists()
     return SweepOptions(folder, engine, resume=resume, force=run.force, goes_on="the same command continues")
+
+
+def study_plan(deck: Deck, fixed: Sequence[str], cases: Sequence[str], results: Sequence[str], folder: Path) -> Plan:
+    """The plan of a sweep over a deck that was read with the overrides ``fixed``."""
+    base, fingerprint = str(deck.path.resolve()), fingerprint_of(deck.path, fixed)
+    return Plan(base, fingerprint, tuple(fixed), tuple(cases), tuple(results), folder=str(folder.absolute()))
 
 
 def prepared_study(
     deck: Deck,
     name: str,
-    fixed: Sequence[str],
-    cases: Sequence[str],
-    results: Sequence[str],
-    folder: Path,
+    plan: Plan,
     column: SweepColumn,
     points: Mapping[Any, Mapping[str, Plain]],
     study_of: Callable[[SweepTable], StudyResult],
-    time_limit: float | None = None,
-    timed: bool = False,
 ) -> Prepared:
-    """The sweep over one parameter of a deck that was read with the overrides ``fixed``.
+    """The sweep over one parameter.
 
-    column             : of the parameter
-    points             : for each of its values, values by key path of the deck
-    time_limit, timed  : as of ``Plan``
+    column : of the parameter
+    points : for each of its values, values by key path of the deck
     """
-    plan = Plan(
-        deck=str(deck.path.resolve()),
-        fingerprint=fingerprint_of(deck.path, fixed),
-        fixed=tuple(fixed),
-        cases=tuple(cases),
-        results=tuple(results),
-        keep="none",
-        folder=str(folder.absolute()),
-        time_limit=time_limit,
-        memory_limit=None,
-        program=program_identity(),
-        timed=timed,
-    )
-    keys = PointKeys(plan.fingerprint, deck.path.resolve().parent, partial(path_in, deck))
     made = tuple(DesignPoint(n, (n - 1,), (value,), own) for n, (value, own) in enumerate(points.items(), 1))
-    return Prepared(
-        name=name,
-        deck=deck.path.name,
-        title=deck.title,
-        design=Design((column,), (DesignDimension(column.dimension, len(made)),), made, (tuple(points),)),
-        keys=tuple(map(keys.of, points.values())),
-        columns=result_columns(plan.results, plan.cases, deck.units),
-        plan=plan,
-        files=TableFiles(),
-        study_of=study_of,
-    )
+    design = Design((column,), (DesignDimension(column.dimension, len(made)),), made, (tuple(points),))
+    return Prepared(name, deck.path.name, deck.title, deck, design, plan, study_of)
 
 
 def heading_lines(deck: Deck) -> list[str]:

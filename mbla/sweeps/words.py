@@ -20,7 +20,7 @@ MINUTE, HOUR = 60.0, 3600.0
 
 
 @dataclass
-class Progress:
+class SweepProgress:
     """Count of finished points.
 
     total   : points to be solved in this run

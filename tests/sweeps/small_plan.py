@@ -6,7 +6,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from mbla.sweeps.identity import fingerprint_of, program_identity
+from mbla.sweeps.identity import fingerprint_of
 from mbla.sweeps.plan import Plan, Task
 from tests.line import BLOCK
 
@@ -33,11 +33,7 @@ def plan_over(folder: Path, text: str = BLOCK, **changes: Any) -> Plan:
         fixed=(),
         cases=("push",),
         results=("load_factor",),
-        keep="none",
         folder=str(folder / "sweep.out"),
-        time_limit=None,
-        memory_limit=None,
-        program=program_identity(),
     )
     return replace(plan, **changes)
 

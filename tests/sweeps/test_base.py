@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import partial
 from pathlib import Path
 
 import pytest
@@ -15,7 +14,7 @@ from mbla.model.blocks.arch import ArchItem
 from mbla.sweeps.base import Base, check_points
 from mbla.sweeps.design.build import design_of
 from mbla.sweeps.design.design import DesignPoint
-from mbla.sweeps.identity import PointKeys, fingerprint_of, key_hash, path_in
+from mbla.sweeps.identity import PointKeys, fingerprint_of, key_hash
 from mbla.sweeps.plan import override_texts
 from tests.deck.decks import write
 from tests.sweeps.file.sweeps import ALL_WAYS, ARCH, GOOD, base_of
@@ -168,9 +167,13 @@ def test_what_counts(tmp_path: Path, change: Callable[[str], str]) -> None:
 # --- keys of points -----------------------------------------------------------------------------------------------
 
 
+def keys_of(base: Base) -> PointKeys:
+    return PointKeys(base.fingerprint, base.deck)
+
+
 def test_keys_of_points(base: Base) -> None:
     keys = {
-        base.keys.of(settings)
+        keys_of(base).of(settings)
         for settings in (
             {},
             {"parameters.mu": 0.3},
@@ -182,7 +185,7 @@ def test_keys_of_points(base: Base) -> None:
     }
     assert len(keys) == 6
     assert all(len(key) == 64 for key in keys)
-    assert base.keys.of({"parameters.t": 0.1, "parameters.mu": 0.3}) == base.keys.of(
+    assert keys_of(base).of({"parameters.t": 0.1, "parameters.mu": 0.3}) == keys_of(base).of(
         {"parameters.mu": 0.3, "parameters.t": 0.1}
     )
 
@@ -220,15 +223,15 @@ def test_files_that_the_deck_names_count(tmp_path: Path) -> None:
 def test_files_that_a_point_names_count(tmp_path: Path, settings: dict[str, object]) -> None:
     a, b = with_tables(tmp_path / "a", -1, -2), with_tables(tmp_path / "b", -1, -3)
     assert a.fingerprint == b.fingerprint
-    assert a.keys.of(settings) != b.keys.of(settings)
-    assert a.keys.of({"parameters.mu": 1.0}) == b.keys.of({"parameters.mu": 1.0})
+    assert keys_of(a).of(settings) != keys_of(b).of(settings)
+    assert keys_of(a).of({"parameters.mu": 1.0}) == keys_of(b).of({"parameters.mu": 1.0})
 
 
 def test_files_that_a_setting_of_a_study_names_count(tmp_path: Path) -> None:
     """In a load case that the deck does not have, too."""
     settings = {"load_cases.interact": {"live": [{"table": "more.csv"}]}}
     decks = [with_tables(tmp_path / name, -1, force).deck for name, force in (("a", -2), ("b", -2), ("c", -3))]
-    first, same, other = (PointKeys("0" * 64, deck.folder, partial(path_in, deck)).of(settings) for deck in decks)
+    first, same, other = (PointKeys("0" * 64, deck).of(settings) for deck in decks)
     assert first == same != other
 
 

@@ -7,13 +7,13 @@ from dataclasses import replace
 import pytest
 
 from mbla.sweeps.tables.sweep_table import sweep_table
-from mbla.sweeps.words import Progress, duration_words, failure_lines, result_lines
+from mbla.sweeps.words import SweepProgress, duration_words, failure_lines, result_lines
 from tests.sweeps.pictures.hand_made import FALLEN, Row, grid
 from tests.sweeps.tables import synthetic
 
 
 def test_a_line_has_counts_rate_and_time_left() -> None:
-    progress = Progress(total=100, done=10, failed=1, seconds=4.5)
+    progress = SweepProgress(total=100, done=10, failed=1, seconds=4.5)
     assert progress.words() == "10 of 100 points, 1 failed, 45 s left"
 
 

@@ -16,7 +16,8 @@ from mbla.sweeps.design.constraints import constrained
 from mbla.sweeps.design.design import Design, DesignAxis, DesignDimension, DesignPoint, Sources
 from mbla.sweeps.design.sampling import quantiles
 from mbla.sweeps.design.ways import WayError, columns_of, filled, grid_quantiles
-from mbla.sweeps.file.content import RANDOM, SAMPLED, PartOfDesign, design_parts, key_paths, way_of
+from mbla.sweeps.file.content import RANDOM, SAMPLED, key_paths, way_of
+from mbla.sweeps.file.parts import PartOfDesign, design_parts
 from mbla.sweeps.plan import Plain
 
 RANGES = ("linear", "log", "horizon")
@@ -73,9 +74,8 @@ def _remarks(axes: Sequence[DesignAxis], keep: BoolArray) -> list[str]:
         ranges = [column.name for column in axis.columns if not column.random]
         if name.startswith("sobol") and name != axis.columns[0].name and size & (size - 1):
             below = 2 ** (size.bit_length() - 1)
-            remarks.append(
-                f"{size} points of a Sobol sequence are spread less evenly than a power of two: {below} or {2 * below}"
-            )
+            words = f"{size} points of a Sobol sequence are spread less evenly than a power of two"
+            remarks.append(f"{words}: {below} or {2 * below}")
         if 0 < len(ranges) < len(axis.columns):
             remarks.append(
                 f"{name}: {', '.join(ranges)} has no distribution, so that shares of these points are no "

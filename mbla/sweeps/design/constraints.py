@@ -14,12 +14,7 @@ from itertools import product
 import numpy as np
 
 from mbla.arrays import BoolArray
-from mbla.deck.expressions import (
-    CONSTANTS,
-    ExpressionError,
-    ParameterFaultError,
-    Parameters,
-)
+from mbla.deck.expressions import CONSTANTS, ExpressionError, ParameterFaultError, Parameters
 from mbla.deck.suggestions import unknown
 from mbla.errors import DeckError, Fault
 from mbla.sweeps.design.design import DesignAxis, FaultAt
@@ -36,12 +31,8 @@ def constrained(
 
     known : the deck's own parameters by name, as they are written
 
-    Returns
-    -------
-    tuple
-        (size of each dimension, ...) True where no constraint is broken; the constraints as they are shown
-
-    Raises DeckError where a constraint that names something else, or has no value at a point.
+    Returns (size of each dimension, ...) True where no constraint is broken; the constraints as they are shown.
+    Raises DeckError where a constraint names something else, or has no value at a point.
     """
     keep = np.ones([axis.dimension.size for axis in axes], dtype=bool)
     breaches: list[tuple[str, int]] = []
@@ -65,21 +56,17 @@ def _holds(comparison: ParameterComparison, axes: Sequence[DesignAxis], known: M
     replaced = {name for axis in axes for name in _of_deck(axis.settings[0])}
     for name in comparison.names:
         if name in columns and name in CONSTANTS:
-            raise ExpressionError(
-                "wrong-comparison", f"{name} is {CONSTANTS[name]:.6g} in expressions: give the parameter another name"
-            )
+            words = f"{name} is {CONSTANTS[name]:.6g} in expressions: give the parameter another name"
+            raise ExpressionError("wrong-comparison", words)
         if name in columns and name in known and name not in replaced:
-            raise ExpressionError(
-                "wrong-comparison",
-                f"{name} is a parameter of the sweep and another one of the deck: rename one of them",
-            )
+            words = f"{name} is a parameter of the sweep and another one of the deck: rename one of them"
+            raise ExpressionError("wrong-comparison", words)
         names = dict.fromkeys([*columns, *known, *replaced, *CONSTANTS])
         if name not in names:
             raise ExpressionError("unknown-name", unknown(f"parameter {name}", name, names, "known"))
         if name in columns and name not in replaced and columns[name].kind in ("text", "bool"):
-            raise ExpressionError(
-                "wrong-comparison", f"{name} has values that are no numbers, which cannot be compared"
-            )
+            words = f"{name} has values that are no numbers, which cannot be compared"
+            raise ExpressionError("wrong-comparison", words)
     rows = [_rows(axis, set(comparison.names) - replaced) for axis in axes]
     holds = [_holds_at(comparison, ChainMap(*row, dict(known))) for row in product(*rows)]
     return np.array(holds, dtype=bool).reshape([len(of_axis) for of_axis in rows])

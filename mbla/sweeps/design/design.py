@@ -9,14 +9,13 @@ from typing import Any, TypeAlias
 from mbla.deck.suggestions import listed
 from mbla.errors import Fault, KeyPath, Message
 from mbla.results.listing.text import INDENT, counted, entry, heading, sentence, shortened, table
-from mbla.sweeps.file.content import PartOfDesign, SweepContent
+from mbla.sweeps.file.content import SweepContent
+from mbla.sweeps.file.parts import PartOfDesign
 from mbla.sweeps.plan import Plain
 
 FaultAt: TypeAlias = Callable[[KeyPath, Message], Fault]
 """fault for a place in the sweep file and a message"""
-
-
-Vector: TypeAlias = tuple[float, float, float]
+TurnedVector: TypeAlias = tuple[float, float, float]
 
 
 @dataclass(frozen=True)
@@ -30,7 +29,7 @@ class Sources:
     """
 
     content: SweepContent
-    vectors: Mapping[str, Vector]
+    vectors: Mapping[str, TurnedVector]
     units: Mapping[str, str]
     known: Mapping[str, object]
     fault_at: FaultAt

@@ -28,7 +28,7 @@ import numpy as np
 from mbla.arrays import FloatArray
 from mbla.deck.suggestions import listed
 from mbla.errors import ValueRefused
-from mbla.sweeps.design.design import SweepColumn, Vector
+from mbla.sweeps.design.design import SweepColumn, TurnedVector
 from mbla.sweeps.design.directions import FULL_CIRCLE, horizontal, sine_cosine, spatial
 from mbla.sweeps.file import content as types
 from mbla.sweeps.file.content import Parameter, key_paths, way_of
@@ -78,7 +78,7 @@ Filled = tuple[tuple[Sequence[Plain], ...], Sequence[Plain]]
 """Values for each column of a parameter, and what goes into the deck, one for each position"""
 
 
-def filled(parameter: Parameter, u: FloatArray, vector: Vector | None) -> Filled:
+def filled(parameter: Parameter, u: FloatArray, vector: TurnedVector | None) -> Filled:
     """What a parameter has at quantiles (n, n_columns) between 0 and 1.
 
     vector : of the base deck, which a direction turns; None for everything else
@@ -208,16 +208,14 @@ def _length_to_turn(components: Iterable[float], given: float | None) -> float:
     """Length of what is turned: as given, or that of a vector of the base deck; WayError where there is none."""
     size = math.hypot(*components) if given is None else given
     if size == 0:
-        raise WayError(
-            "sweep-directions",
-            "turns a vector that has no length in these directions: give its size, or change it in the deck",
-        )
+        words = "turns a vector that has no length in these directions: give its size, or change it in the deck"
+        raise WayError("sweep-directions", words)
     if math.isinf(size):
         raise WayError("sweep-directions", "turns a vector that is longer than a number holds")
     return size
 
 
-def _horizon(section: types.Horizon, u: FloatArray, vector: Vector | None) -> Filled:
+def _horizon(section: types.Horizon, u: FloatArray, vector: TurnedVector | None) -> Filled:
     """The horizontal part of a vector is turned, its vertical part stays."""
     along_x, along_y, vertical = map(float, vector or (0.0, 0.0, 0.0))
     size = _length_to_turn((along_x, along_y), section.size)
@@ -225,7 +223,7 @@ def _horizon(section: types.Horizon, u: FloatArray, vector: Vector | None) -> Fi
     return (azimuths,), [[*horizontal(azimuth, size), vertical] for azimuth in azimuths]
 
 
-def _sphere(section: types.Sphere, u: FloatArray, vector: Vector | None) -> Filled:
+def _sphere(section: types.Sphere, u: FloatArray, vector: TurnedVector | None) -> Filled:
     """Directions at a share of the circle and a share of the surface from the least elevation upwards."""
     low, high = sine_cosine(section.start)[0], sine_cosine(section.end)[0]
     sines = np.clip(low * (1 - u[:, 1]) + high * u[:, 1], -1.0, 1.0)

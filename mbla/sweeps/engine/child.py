@@ -98,40 +98,21 @@ def prepared(plan: Plan) -> PointRunner:
     if plan.program != program_identity():
         raise UsageError("workers-differ", f"its mbla is {program_identity()}, the sweep was planned by {plan.program}")
     if plan.memory_limit is not None and not can_limit():
-        raise UsageError(
-            "memory-limit-unknown",
-            f"limits.memory: {sys.platform} has no limit on the memory of a process; leave it out",
-        )
+        words = f"limits.memory: {sys.platform} has no limit on the memory of a process; leave it out"
+        raise UsageError("memory-limit-unknown", words)
     if fingerprint_of(Path(plan.deck), plan.fixed) != plan.fingerprint:
         where = f"{plan.deck} on {platform.node()}"
-        raise UsageError(
-            "deck-changed",
-            f"{where} is not the deck that was planned: it, or a file that it names, is another or changed",
-        )
+        words = f"{where} is not the deck that was planned: it, or a file that it names, is another or changed"
+        raise UsageError("deck-changed", words)
     return PointRunner(plan)
 
 
 # --- points -----------------------------------------------------------------------------------------------------------
 
-FOLDER = "points"
-"""in the folder of the sweep; one folder for each point in it, by its number"""
-
-
 ON_REQUEST = (
     *("assessment", "assessment_ratio", *(f"assessment_ratio_{state}" for state in LIMIT_STATES)),
-    *(
-        "best_iterate",
-        "complete",
-        "iterations",
-        "least_load_factor",
-        "programs",
-        "remarks",
-        "settings",
-        "solver",
-        "time",
-        "torsion_end",
-        "torsion_load_factor",
-    ),
+    *("best_iterate", "complete", "iterations", "least_load_factor", "programs", "remarks", "settings", "solver"),
+    *("time", "torsion_end", "torsion_load_factor"),
 )
 """first keys of columns that need, or may depend on, the least load factor that a search finds, or a second path"""
 
@@ -214,7 +195,7 @@ class PointRunner:
         status_file = StatusFile(status, deck.title)
         results = solve_deck(deck, RunOptions(cases=plan.cases), status_file, None, started, self.states, self.contacts)
         if plan.keep in ("all", state_of(results.exit_code)):
-            with OutputFolder(Path(plan.folder) / FOLDER / str(task.number), stem, force=True) as out:
+            with OutputFolder(Path(plan.folder) / "points" / str(task.number), stem, force=True) as out:
                 out.write_text(f"{stem}.sta", status.getvalue())
                 write_results(results, out, deck.content.output)
         record = results_json(results)

@@ -28,12 +28,8 @@ dask: Any = distributed  # without types
 def pool_of_cluster(options: EngineOptions, plan: Plan) -> Iterator[Pool]:
     """The workers, once there is one; what they do for the plan is stopped after the block.
 
-    Raises
-    ------
-    UsageError
-        there is no scheduler or no worker, or one cannot solve points of the plan
-    FileError
-        the scheduler is gone
+    Raises UsageError: there is no scheduler or no worker, or one cannot solve points of the plan. Raises FileError: the
+    scheduler is gone.
     """
     with connected(options) as client:
         executor = client.get_executor(pure=False)

@@ -65,9 +65,6 @@ class Pool:
     given_up: tuple[type[Exception], ...] = ()
 
 
-MISSING = "a cluster needs an extra that is not installed: pip install 'mbla[dask]'"
-
-
 def check_options(options: EngineOptions) -> None:
     """Raises UsageError for what does not go together, each in a line, and for a missing extra."""
     wrong = []
@@ -82,7 +79,8 @@ def check_options(options: EngineOptions) -> None:
     if wrong:
         raise UsageError("sweep-option", "\n".join(wrong))
     if options.cluster and importlib.util.find_spec("distributed") is None:
-        raise UsageError("extra-missing", MISSING)
+        words = "a cluster needs an extra that is not installed: pip install 'mbla[dask]'"
+        raise UsageError("extra-missing", words)
 
 
 def outcomes_of(options: EngineOptions, plan: Plan, tasks: Sequence[Task]) -> Generator[PointOutcome, None, None]:
@@ -90,12 +88,8 @@ def outcomes_of(options: EngineOptions, plan: Plan, tasks: Sequence[Task]) -> Ge
 
     Tasks are begun in their order. Closing the iterator stops what is under way.
 
-    Raises
-    ------
-    UsageError
-        no worker can be had, or one has another mbla or reads another base deck
-    FileError
-        the scheduler is gone
+    Raises UsageError: no worker can be had, or one has another mbla or reads another base deck. Raises FileError: the
+    scheduler is gone.
     """
     left, running = iter(tasks), dict[Future[PointOutcome], Task]()
     with _pool_of(options, plan) as pool:

@@ -42,24 +42,18 @@ class Processes:
             runner = self._runners.get(threading.get_ident())
             if runner is None or runner.stopped or runner.plan != plan:
                 if runner is not None:
-                    runner.kill()
+                    runner.close()
                 runner = SupervisedRunner(plan, until=self._until, threads=self._threads)
                 self._runners[threading.get_ident()] = runner
             return runner
 
-    def end(self) -> None:
-        """End all for good, also in the middle of a point."""
+    def end(self, plan: Plan | None = None) -> None:
+        """End those that solve points of a plan, or all for good; also in the middle of a point."""
         with self._lock:
-            self._ended = True
+            self._ended = self._ended or plan is None
             for runner in self._runners.values():
-                runner.kill()
-
-    def end_of(self, plan: Plan) -> None:
-        """End those that solve points of a plan, also in the middle of a point."""
-        with self._lock:
-            for runner in self._runners.values():
-                if runner.plan == plan:
-                    runner.kill()
+                if plan is None or runner.plan == plan:
+                    runner.close()
 
 
 ON_WORKER = Processes()
@@ -84,4 +78,4 @@ def run_on_worker(plan: Plan, task: Task, libraries: Mapping[str, str]) -> Point
 
 def end_on_worker(plan: Plan) -> None:
     """End what a worker of a cluster does for a plan."""
-    ON_WORKER.end_of(plan)
+    ON_WORKER.end(plan)

@@ -19,11 +19,10 @@ from dataclasses import replace
 from multiprocessing import Pipe
 from multiprocessing.connection import Connection
 from pathlib import Path
-from types import TracebackType
 from typing import IO, Any
 
 from mbla.errors import LimitError, UsageError
-from mbla.sweeps.plan import FAILED, Plan, PointOutcome, Task
+from mbla.sweeps.plan import FAILED, MEGABYTE, Plan, PointOutcome, Task
 
 COMMAND = (sys.executable, "-P", "-m", "mbla.sweeps.engine.child")
 PACKAGES = Path(__file__).parents[3]
@@ -42,7 +41,6 @@ LAST_WORDS = 2000
 """bytes of standard error that are read of one that broke"""
 NO_MEMORY = ("memory allocation of", "bad_alloc", "Cannot allocate memory", "MemoryError", "emory allocation")
 """what libraries say last when they end a process because an allocation failed"""
-MEGABYTE = 1e6
 STOPPED = "stopped at the end of the time limit"
 """reason of a point that was under way when the time for all of them was over"""
 
@@ -52,10 +50,10 @@ class StoppedError(Exception):
 
 
 class SupervisedRunner:
-    """Context manager; solves points of one plan, one after the other, in a process that is replaced when it must be.
+    """Solves points of one plan, one after the other, in a process that is replaced when it must be.
 
     started : processes begun so far
-    stopped : ``kill`` was called
+    stopped : ``close`` was called
     """
 
     def __init__(
@@ -76,15 +74,7 @@ class SupervisedRunner:
         self._errors: IO[bytes] | None = None
         self._at_work = threading.Lock()
 
-    def __enter__(self) -> SupervisedRunner:
-        return self
-
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, traceback: TracebackType | None
-    ) -> None:
-        self._stop()
-
-    def kill(self) -> None:
+    def close(self) -> None:
         """End it for good, from whatever thread; ``run`` raises StoppedError where it is under way, and later."""
         self.stopped = True
         if (process := self._process) is not None and process.poll() is None:  # else its number may be another's
@@ -99,12 +89,8 @@ class SupervisedRunner:
         A process that died is replaced and the point tried once more. So is one that met the limit on memory unless
         the point was its first: whether a point fits must not depend on those before it.
 
-        Raises
-        ------
-        UsageError
-            no process can be had, or it is not the mbla, or reads not the deck, of the plan
-        StoppedError
-            ``kill`` was called
+        Raises UsageError: no process can be had, or it is not the mbla, or reads not the deck, of the plan. Raises
+        StoppedError: ``close`` was called.
         """
         with self._at_work:
             for tries in range(1, TRIES + 1):
@@ -161,7 +147,7 @@ class SupervisedRunner:
             try:
                 if not self.stopped:
                     self._start()
-                if self.stopped:  # also where ``kill`` came before there was anything to kill
+                if self.stopped:  # also where ``close`` came before there was anything to kill
                     self._stop()
                     raise StoppedError
                 refused: str = self._ask(self.plan, time.monotonic() + START)

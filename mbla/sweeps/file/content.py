@@ -5,8 +5,6 @@ Numbers are plain; values that go into the deck are written as the deck takes th
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Annotated, Any, Literal, TypeAlias
 
 from pydantic import BeforeValidator, Field
@@ -14,7 +12,6 @@ from pydantic import BeforeValidator, Field
 from mbla.deck.content import no_boolean
 from mbla.deck.quantities import NAME_PATTERN, Integer, Line, Name, Number, PositiveNumber, RealNumber, Switch, Time
 from mbla.deck.section import ByShape, Section
-from mbla.errors import KeyPath
 
 MAX_POINTS = 1_000_000
 """points of one sweep; more would not give a readable table"""
@@ -33,9 +30,11 @@ SAMPLED = ("random", "latin_hypercube", "sobol")
 
 Degrees: TypeAlias = Annotated[float, RealNumber("number", ge=-360, le=360)]
 Elevation: TypeAlias = Annotated[float, RealNumber("number", ge=-90, le=90)]
-Points: TypeAlias = Annotated[int, Integer(ge=1, le=MAX_POINTS)]
+PointCount: TypeAlias = Annotated[int, Integer(ge=1, le=MAX_POINTS)]
+Levels: TypeAlias = Annotated[int, Integer(ge=2, le=MAX_POINTS)]
+LEVELS = "how many; in a design that samples the range there are none, it takes any value"
 Seed: TypeAlias = Annotated[int, Integer(ge=0, le=2**32 - 1)]
-ParameterName: TypeAlias = Annotated[str, Field(pattern=NAME_PATTERN, max_length=200)]
+VariedName: TypeAlias = Annotated[str, Field(pattern=NAME_PATTERN, max_length=200)]
 """also a key path, which may be long"""
 KeyPaths: TypeAlias = Annotated[str | Annotated[list[str], Field(min_length=1)], ByShape("name")]
 
@@ -45,9 +44,7 @@ class LinearRange(Section):
 
     start: Number = Field(alias="from", description="first value")
     end: Number = Field(alias="to", description="last value")
-    points: Annotated[int, Integer(ge=2, le=MAX_POINTS)] | None = Field(
-        None, description="how many; in a design that samples the range there are none, it takes any value"
-    )
+    points: Levels | None = Field(None, description=LEVELS)
 
 
 class LogRange(Section):
@@ -55,9 +52,7 @@ class LogRange(Section):
 
     start: PositiveNumber = Field(alias="from", description="first value")
     end: PositiveNumber = Field(alias="to", description="last value")
-    points: Annotated[int, Integer(ge=2, le=MAX_POINTS)] | None = Field(
-        None, description="how many; in a design that samples the range there are none, it takes any value"
-    )
+    points: Levels | None = Field(None, description=LEVELS)
 
 
 class IntegerRange(Section):
@@ -105,9 +100,7 @@ class Horizon(Section):
 
     start: Degrees = Field(0.0, alias="from", description="first azimuth in degrees, from +x towards +y")
     end: Degrees = Field(360.0, alias="to", description="last azimuth; left out where it is a full circle on")
-    points: Annotated[int, Integer(ge=1, le=MAX_POINTS)] | None = Field(
-        None, description="how many; none in a design that samples directions"
-    )
+    points: PointCount | None = Field(None, description="how many; none in a design that samples directions")
     size: PositiveNumber | None = Field(
         None, description="length of the horizontal part; default: length of the vector in the base deck"
     )
@@ -118,7 +111,9 @@ class Sphere(Section):
 
     start: Elevation = Field(-90.0, alias="from", description="least elevation above the horizon in degrees")
     end: Elevation = Field(90.0, alias="to", description="greatest elevation")
-    points: Points | None = Field(None, description="how many, on a spiral; none in a design that samples directions")
+    points: PointCount | None = Field(
+        None, description="how many, on a spiral; none in a design that samples directions"
+    )
     size: PositiveNumber | None = Field(None, description="length of the vector; default: its length in the base deck")
 
 
@@ -156,7 +151,7 @@ class Combined(Section):
 class Sampled(Combined):
     """A sample of points that change several parameters together."""
 
-    points: Points = Field(description="how many")
+    points: PointCount = Field(description="how many")
     seed: Seed = Field(1, description="another number, another sample")
 
 
@@ -200,6 +195,9 @@ class FragilitySection(Section):
     confidence: Annotated[float, RealNumber("number", gt=0, lt=1)] = Field(0.95, description="of the interval")
 
 
+USUAL_RESULTS = "status load_factor static_bound kinematic_bound associative_load_factor mechanism.class"
+
+
 class SweepContent(Section):
     """A complete sweep file."""
 
@@ -212,7 +210,7 @@ class SweepContent(Section):
         None, description="load cases to solve; default: all of the deck"
     )
     set: dict[str, Any] = Field(default_factory=dict, description="values by key path of the deck, for every point")
-    parameters: dict[ParameterName, Parameter] = Field(min_length=1, description="what changes, by name")
+    parameters: dict[VariedName, Parameter] = Field(min_length=1, description="what changes, by name")
     design: list[DesignPart] | None = Field(
         None, min_length=1, description="parts of the design; default: a grid of all parameters"
     )
@@ -221,14 +219,7 @@ class SweepContent(Section):
         description='comparisons such as "t < 0.2*radius"; points that break one are left out',
     )
     results: Annotated[list[str], Field(min_length=1)] = Field(
-        default_factory=lambda: [
-            "status",
-            "load_factor",
-            "static_bound",
-            "kinematic_bound",
-            "associative_load_factor",
-            "mechanism.class",
-        ],
+        default_factory=USUAL_RESULTS.split,
         description="columns: key paths in the JSON object of a load case, or of the run with model., settings., time.",
     )
     limits: LimitsSection = Field(default_factory=LimitsSection, description="what one point may take")
@@ -238,7 +229,7 @@ class SweepContent(Section):
     fragility: FragilitySection | None = Field(None, description="probability of collapse below a demand")
 
 
-# --- what a checked file says ---------------------------------------------------------------------------------------
+# --- what a checked parameter says ------------------------------------------------------------------------------------
 
 
 def way_of(parameter: Parameter) -> str:
@@ -266,51 +257,3 @@ def key_paths(name: str, parameter: Parameter) -> tuple[str, ...]:
 def spelt(key: str) -> tuple[str, ...]:
     """Parts of a key path, numbers of items in one spelling: ``blocks.00.box`` is ``blocks.0.box``."""
     return tuple(str(int(part)) if part.isascii() and part.isdecimal() else part for part in key.strip().split("."))
-
-
-KINDS = tuple(DesignPart.model_fields)
-
-
-@dataclass(frozen=True)
-class PartOfDesign:
-    """A part of the design; every point of it is combined with every point of the others.
-
-    kind       : ``grid``, ``zip``, ``random``, ``latin_hypercube`` or ``sobol``
-    parameters : their names, in the order of the part
-    path       : place of the part in the sweep file, for messages
-    of         : names as the file gives them; None where it leaves that to the rest
-    points     : of a sample; 0 for grid and zip
-    seed       : of a sample
-    """
-
-    kind: str
-    parameters: tuple[str, ...]
-    path: KeyPath
-    of: Sequence[str] | None = None
-    points: int = 0
-    seed: int | None = None
-
-
-def design_parts(content: SweepContent) -> tuple[PartOfDesign, ...]:
-    """Parts in their order; a grid of all parameters where the file gives none.
-
-    Names that are no parameters are left out here, and a second part without `of` is empty: both are reported where
-    the file is read.
-    """
-    if content.design is None:
-        return (PartOfDesign("grid", tuple(content.parameters), ("parameters",)),)
-    sections = [(kind, getattr(each, kind)) for each in content.design for kind in KINDS if getattr(each, kind)]
-    named = {name for _, section in sections for name in section.of or ()}
-    rest = tuple(name for name in content.parameters if name not in named)
-    parts = []
-    for index, (kind, section) in enumerate(sections):
-        names = rest if section.of is None else tuple(name for name in section.of if name in content.parameters)
-        sampled = (section.points, section.seed) if isinstance(section, Sampled) else ()
-        parts.append(PartOfDesign(kind, names, ("design", index, kind), section.of, *sampled))
-        rest = () if section.of is None else rest
-    return tuple(parts)
-
-
-def is_random(part: PartOfDesign, content: SweepContent) -> bool:
-    """Whether the points of a part are a random sample: drawn, and every parameter with a probability."""
-    return part.kind in SAMPLED and all(way_of(content.parameters[name]) in RANDOM for name in part.parameters)

@@ -36,24 +36,15 @@ class Sweep:
 SWEEP_FILE = FileKind(name="sweep file", begins="mbla_sweep: 1", includes=False)
 
 
+@no_collection()
 def read_sweep(path: Path, overrides: Sequence[str] = ()) -> Sweep:
     """Read and check a sweep file; its base deck is another step (``base.py``).
 
     path      : the sweep file
     overrides : ``key.path=value`` texts for the deck, for every point
 
-    Raises
-    ------
-    DeckError
-        with every fault found
-    FileError
-        if the file cannot be opened
+    Raises DeckError: with every fault found. Raises FileError: if the file cannot be opened.
     """
-    with no_collection():
-        return _read(path, overrides)
-
-
-def _read(path: Path, overrides: Sequence[str]) -> Sweep:
     tree, reading = read_files(path, kind=SWEEP_FILE)
     if not reading.complete:  # what could not be read would be reported as missing
         raise DeckError(reading.faults)

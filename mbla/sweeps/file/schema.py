@@ -10,7 +10,8 @@ from typing import Any
 
 from mbla.deck.quantities import EXPRESSION_PATTERN, QUANTITY_PATTERN
 from mbla.deck.schema import generated_files, section_tables, tidy
-from mbla.sweeps.file.content import KINDS, WAYS, SweepContent
+from mbla.sweeps.file.content import WAYS, SweepContent
+from mbla.sweeps.file.parts import KINDS
 
 VALUE_TYPES = ["number", "string", "boolean", "array"]
 """what a value of a parameter may be"""

@@ -39,7 +39,7 @@ FAR = 10.0
 
 
 @dataclass(frozen=True)
-class Points:
+class RayPoints:
     """The points of a diagram.
 
     factors       : load factors by the deck's flow rule
@@ -67,14 +67,14 @@ class Points:
         return np.asarray(self.known[:, None] * self.ways)
 
 
-def points_of(table: SweepTable, question: InteractionQuestion) -> Points:
+def points_of(table: SweepTable, question: InteractionQuestion) -> RayPoints:
     """The points of the table of a diagram."""
     columns = {column.name: column for column in table.of_role("result")}
 
     def figures(name: str) -> FloatArray:
         return numbers_of(columns[name], table[name]) if name in columns else np.full(len(table), np.nan)
 
-    return Points(
+    return RayPoints(
         factors=answers_of(table, columns["load_factor"]),
         ways=np.array([horizontal(angle, 1.0) for angle in question.angles]),
         static=figures("static_bound"),
@@ -119,7 +119,7 @@ class Domain:
         return float(self.inner.exterior.distance(origin)) if around else None
 
 
-def domain_of(points: Points, question: InteractionQuestion) -> Domain | None:
+def domain_of(points: RayPoints, question: InteractionQuestion) -> Domain | None:
     """The domain that points in the plane of two loads prove; None where none of them has bounds."""
     safe = points.static >= 0.0
     if not question.pair or not safe.any():

@@ -16,7 +16,7 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -84,12 +84,8 @@ def question_of(deck: Deck, options: Any, ratio: Callable[[], float] = lambda: 1
     options : ``case`` or ``loads`` (two names), ``directions``, ``start`` and ``end`` in degrees, by default None
     ratio   : of the load factor of the second of two loads alone to that of the first
 
-    Raises
-    ------
-    DeckError
-        for what is wrong with the deck
-    UsageError
-        for options that do not go together, and for load cases of which it cannot be asked
+    Raises DeckError: for what is wrong with the deck. Raises UsageError: for options that do not go together, and for
+    load cases of which it cannot be asked.
     """
     model = build_model(deck)
     build_assembly(deck, model)
@@ -106,9 +102,8 @@ def question_of(deck: Deck, options: Any, ratio: Callable[[], float] = lambda: 1
     start = 0.0 if options.start is None else options.start
     end = start + QUARTER if options.end is None else options.end
     if not start < end <= start + FULL_CIRCLE:
-        raise UsageError(
-            "interact-option", f"--from {start:g} --to {end:g}: the end must lie above, by 360 degrees at most"
-        )
+        words = f"--from {start:g} --to {end:g}: the end must lie above, by 360 degrees at most"
+        raise UsageError("interact-option", words)
     count, pair = _count(options.directions, ANGLES, 2), tuple(options.loads)
     shares = _two_loads(deck, model, pair)
     return InteractionQuestion(
@@ -178,9 +173,8 @@ def _live_loads(deck: Deck, case: str) -> list[Entry]:
         raise UsageError("interact-load", f"load case {case}: {NO_LIVE_LOAD[key]}")
     entries = list(entries_of(cases[case].live or [], ("load_cases", case, "live"), deck.content.loads))
     if not all(entry.adds_up for entry in entries):
-        raise UsageError(
-            "interact-load", f"load case {case}: its live load travels or tilts; a diagram takes other kinds of load"
-        )
+        words = f"load case {case}: its live load travels or tilts; a diagram takes other kinds of load"
+        raise UsageError("interact-load", words)
     return entries
 
 
@@ -221,33 +215,33 @@ def _direction(deck: Deck, case: str, count: int) -> InteractionQuestion:
     absolute = all(one.real > 0 and abs(one.imag) <= ONE_WAY * abs(one) for one in turned)
     if absolute:  # from +x on, whatever the direction in the deck
         parts = [complex(math.copysign(abs(part), each.factor)) for each, part in zip(entries, parts, strict=True)]
-
-    def live(azimuth: float) -> list[Plain]:
-        """The loads as a deck writes them."""
-        found: list[Plain] = []
-        for entry, part, (_, _, z) in zip(entries, parts, vectors, strict=True):
-            to = part * complex(*horizontal(azimuth, 1.0))
-            change = {entry.kind: [to.real + 0.0, to.imag + 0.0, z]}
-            found.append(_written(deck, entry, entry.factor, **change))
-        return found
-
+    loads = [(entry, part, z) for entry, part, (_, _, z) in zip(entries, parts, vectors, strict=True)]
     pair: tuple[str, ...] = ()
     if not any(z for _, _, z in vectors):  # powers of both say what a mechanism bounds all around
         pair = _free_name(deck, "interact_0"), _free_name(deck, "interact_90")
     both = zip(pair, (0.0, QUARTER), strict=False)
+    fixed: dict[str, Plain] = {f"load_cases.{name}": {"live": _turned(deck, loads, angle)} for name, angle in both}
+    azimuths = angles_between(0.0, FULL_CIRCLE, count)
     begins = "azimuth 0 pushes along +x, 90 along +y" if absolute else "azimuth 0 is as the deck directs its loads"
     return InteractionQuestion(
         kind=DIRECTION,
         case=case,
         axes=("factor along x", "factor along y") if absolute else ("factor at azimuth 0", "factor at azimuth 90"),
         pair=pair,
-        settings={
-            azimuth: {f"load_cases.{case}.live": live(azimuth)} for azimuth in angles_between(0.0, FULL_CIRCLE, count)
-        },
-        fixed=override_texts({f"load_cases.{name}": {"live": live(azimuth)} for name, azimuth in both}),
+        settings={azimuth: {f"load_cases.{case}.live": _turned(deck, loads, azimuth)} for azimuth in azimuths},
+        fixed=override_texts(fixed),
         closed=True,
         words=f"load case {case}: the horizontal part of its live load is turned; {begins}",
     )
+
+
+def _turned(deck: Deck, loads: Sequence[tuple[Entry, complex, float]], azimuth: float) -> list[Plain]:
+    """Loads as a deck writes them, each by its horizontal part, which is turned, and its vertical part."""
+    turn, found = complex(*horizontal(azimuth, 1.0)), list[Plain]()
+    for entry, part, vertical in loads:
+        to = part * turn
+        found.append(_written(deck, entry, entry.factor, **{entry.kind: [to.real + 0.0, to.imag + 0.0, vertical]}))
+    return found
 
 
 def _vector(case: str, entry: Entry) -> tuple[float, float, float]:

@@ -21,11 +21,11 @@ from mbla.sweeps.answers import Answer
 from mbla.sweeps.command import Finished, Prepared, Report, run_sweep
 from mbla.sweeps.engine.child import PointRunner
 from mbla.sweeps.engine.engine import EngineOptions
-from mbla.sweeps.interaction.domain import Domain, Points, corners_of, domain_of, points_of
+from mbla.sweeps.interaction.domain import Domain, RayPoints, corners_of, domain_of, points_of
 from mbla.sweeps.interaction.question import DIRECTION, TWO_LOADS, InteractionQuestion, question_of
 from mbla.sweeps.pictures.sheet import count_words, draw_marks, mark_handles
 from mbla.sweeps.plan import Task
-from mbla.sweeps.studies import heading_lines, prepared_study, study_options
+from mbla.sweeps.studies import heading_lines, prepared_study, study_options, study_plan
 from mbla.sweeps.tables.sweep_table import SweepColumn, SweepTable
 from mbla.sweeps.tables.write_tables import StudyResult
 
@@ -48,12 +48,8 @@ MOST_ANGLES = 4
 def interact(deck: Deck, run: RunOptions, options: Any, report: Report | None) -> Finished:
     """Solve the points of a diagram and write its files; ``options`` as of ``question_of``, and ``jobs``.
 
-    Raises
-    ------
-    DeckError, UsageError
-        The deck is not valid, or cannot be asked this; nothing is written then.
-    FileError
-        Files are in the way or cannot be written.
+    Raises DeckError, UsageError: the deck is not valid, or cannot be asked this; nothing is written then. Raises
+    FileError: files are in the way or cannot be written.
     """
     name = "_".join(("interact", *(options.loads or ())))
     chosen = study_options(deck, run, name, EngineOptions(workers=options.jobs))
@@ -65,18 +61,14 @@ def interact(deck: Deck, run: RunOptions, options: Any, report: Report | None) -
 def prepared_diagram(deck: Deck, run: RunOptions, question: InteractionQuestion, folder: Path) -> Prepared:
     """The sweep over the angle of a question."""
     results = (*RESULTS, *(f"powers.{name}" for name in question.pair))
-    fixed = (*run.overrides, *question.fixed)
+    plan = study_plan(deck, (*run.overrides, *question.fixed), (question.case,), results, folder)
     column = AZIMUTH if question.kind == DIRECTION else ANGLE
-    study_of = partial(study_result_of, deck, question)
-    return prepared_study(
-        deck, "interact", fixed, (question.case,), results, folder, column, question.settings, study_of
-    )
+    return prepared_study(deck, "interact", plan, column, question.settings, partial(study_result_of, deck, question))
 
 
 def factor_ratio(deck: Deck, run: RunOptions, pair: Sequence[str]) -> float:
     """Load factor of the second load alone over that of the first; 1 where either has none."""
-    alone = prepared_study(deck, "", run.overrides, pair, ("load_factor",), Path(), ANGLE, {}, lambda _: StudyResult())
-    results = PointRunner(alone.plan).run(Task("", 0, {})).results
+    results = PointRunner(study_plan(deck, run.overrides, pair, ("load_factor",), Path())).run(Task("", 0, {})).results
     first, second = (results.get(f"{name}.load_factor") or 0.0 for name in pair)
     usable = isinstance(first, float) and isinstance(second, float) and min(first, second) > 0
     return second / first if usable else 1.0  # type: ignore[operator]
@@ -104,7 +96,7 @@ def study_result_of(deck: Deck, question: InteractionQuestion, table: SweepTable
     )
 
 
-def _exit_code(table: SweepTable, points: Points, domain: Domain | None) -> int:
+def _exit_code(table: SweepTable, points: RayPoints, domain: Domain | None) -> int:
     """The worst of points without a verified answer, 4 where bounds contradict each other, 5 without any load factor.
 
     A direction in which the load never brings collapse is an answer, as a position of a travelling load is.
@@ -117,7 +109,7 @@ def _exit_code(table: SweepTable, points: Points, domain: Domain | None) -> int:
     return 0 if points.factors.good.any() else NO_FACTOR
 
 
-def _extremes(question: InteractionQuestion, points: Points) -> dict[str, dict[str, Any]]:
+def _extremes(question: InteractionQuestion, points: RayPoints) -> dict[str, dict[str, Any]]:
     """The least and the greatest of the verified load factors, with their angles."""
     if not points.factors.good.any():
         return {}
@@ -130,7 +122,7 @@ def _extremes(question: InteractionQuestion, points: Points) -> dict[str, dict[s
 # --- words ------------------------------------------------------------------------------------------------------------
 
 
-def _point_table(question: InteractionQuestion, points: Points, results: SweepTable) -> list[str]:
+def _point_table(question: InteractionQuestion, points: RayPoints, results: SweepTable) -> list[str]:
     """A line for each point; in capitals where it has no verified answer, which may be that there is no factor."""
     unsure = np.isin(points.factors.answer, (Answer.UNVERIFIED, Answer.FAILED, Answer.NOT_RUN)).tolist()
     rows = zip(results["status"].tolist(), results["state"].tolist(), unsure, strict=True)
@@ -147,7 +139,7 @@ def _point_table(question: InteractionQuestion, points: Points, results: SweepTa
     return table(list(columns), list(zip(*columns.values(), strict=True)), left=0)
 
 
-def _factor_words(question: InteractionQuestion, points: Points) -> list[str]:
+def _factor_words(question: InteractionQuestion, points: RayPoints) -> list[str]:
     """The extremes; of two loads each by itself, as the least factor over their shares says nothing."""
     if question.kind == TWO_LOADS:
         alone = [
@@ -168,7 +160,7 @@ def _angles(angles: Sequence[float]) -> str:
     return f"{', '.join(f'{angle:.6g}' for angle in angles[:MOST_ANGLES])}{more} degrees"
 
 
-def _domain_words(question: InteractionQuestion, points: Points, domain: Domain | None) -> list[str]:
+def _domain_words(question: InteractionQuestion, points: RayPoints, domain: Domain | None) -> list[str]:
     """What follows from the bounds of all points for the domain of associative flow."""
     if not question.pair:
         return ["no safe domain is drawn: with vertical parts the loads do not lie in one plane through the dead load"]
@@ -188,7 +180,7 @@ def _domain_words(question: InteractionQuestion, points: Points, domain: Domain 
     return words
 
 
-def _gap_words(question: InteractionQuestion, points: Points, domain: Domain) -> str:
+def _gap_words(question: InteractionQuestion, points: RayPoints, domain: Domain) -> str:
     """What safe points and mechanisms leave open between them, or why that is no share of an area."""
     if not np.isnan(domain.gap):
         return f"what those leave open between safe points and mechanisms is {percent(domain.gap)} % of its area"
@@ -213,7 +205,7 @@ def _reasons(question: InteractionQuestion, results: SweepTable) -> list[str]:
 
 
 def _record(
-    question: InteractionQuestion, points: Points, domain: Domain | None, words: Sequence[str]
+    question: InteractionQuestion, points: RayPoints, domain: Domain | None, words: Sequence[str]
 ) -> dict[str, Any]:
     ends = _extremes(question, points)
     proved = None if domain is None else {
@@ -269,7 +261,7 @@ ROOM = 1.12
 
 
 def draw_diagram(
-    title: Sequence[str], rule: str, question: InteractionQuestion, points: Points, domain: Domain | None, path: Path
+    title: Sequence[str], rule: str, question: InteractionQuestion, points: RayPoints, domain: Domain | None, path: Path
 ) -> None:
     """Load factors in the plane of the two factors, joined where neighbours have one, and the proved polygons.
 

@@ -19,7 +19,7 @@ from mbla.sweeps.tables.sweep_json import JSON, read_sweep_table
 from mbla.sweeps.tables.sweep_table import SweepTable
 
 
-class Kind(Protocol):
+class PictureKind(Protocol):
     """A kind of picture, a module each."""
 
     def refusal(self, view: ResultView) -> str:
@@ -29,7 +29,7 @@ class Kind(Protocol):
         """Write it; raises as ``open_diagrams`` does."""
 
 
-KINDS: dict[str, Kind] = {"curve": curve, "map": map, "distribution": distribution}
+KINDS: dict[str, PictureKind] = {"curve": curve, "map": map, "distribution": distribution}
 """by name, in the order in which they are made"""
 USUAL: dict[str, Callable[[ResultView], bool]] = {
     "map": lambda view: min(len(axis.levels) for axis in view.axes[:2]) > 2,  # else it shows no more than curves
@@ -98,13 +98,9 @@ def plot_sweep(table: SweepTable, target: Path, chosen: SweepPictures | None = N
     target : a file with the suffix .png, .svg or .pdf, for a single picture: the first that suits the table unless a
              kind and a result are chosen; else a folder, created if missing
 
-    Raises
-    ------
-    UsageError
-        A kind that does not fit the table, no such result or parameter, several pictures for one file, another suffix,
-        nothing to draw; the extra for pictures is not installed.
-    FileError
-        A picture or the folder cannot be written.
+    Raises UsageError: a kind that does not fit the table, no such result or parameter, several pictures for one file,
+    another suffix, nothing to draw; the extra for pictures is not installed. Raises FileError: a picture or the folder
+    cannot be written.
     """
     chosen = chosen or SweepPictures()
     pictures = pictures_of(table, chosen)

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Sequence
+from contextlib import AbstractContextManager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -56,7 +56,6 @@ def count_words(answers: Answers) -> str:
     return f"{total} point{'s' * (total != 1)}: {', '.join(parts)}"
 
 
-@contextmanager
 def open_sheet(
     path: Path,
     view: ResultView,
@@ -64,11 +63,10 @@ def open_sheet(
     options: PictureOptions,
     handles: Callable[[Page], Sequence[Any]] | None = None,
     notes: Sequence[str] = (),
-) -> Iterator[Diagrams]:
+) -> AbstractContextManager[Diagrams]:
     """A page with the title of the sweep, what is drawn, how many points, and notes; raises as ``open_diagrams``."""
     words = [view.table.title or "sweep", what, count_words(view.answers), *notes]
-    with open_diagrams(path, options, words, handles=handles) as sheet:
-        yield sheet
+    return open_diagrams(path, options, words, handles=handles)
 
 
 def drawn_values(cells: Cells) -> FloatArray:

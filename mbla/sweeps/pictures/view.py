@@ -77,11 +77,6 @@ def is_sampled(table: SweepTable, dimension: str) -> bool:
     return bool(own) and dimension.startswith(("random", "latin_hypercube", "sobol")) and own[0].name != dimension
 
 
-def over_sphere(table: SweepTable, dimension: str) -> bool:
-    """Whether a dimension is that of directions over a sphere."""
-    return any(column.dimension == dimension for column in table.of_role("elevation"))
-
-
 def axis_of(table: SweepTable, column: SweepColumn) -> ParameterAxis:
     """The axis of a column of the design."""
     partners = tuple(
@@ -106,7 +101,8 @@ def grid_axes(table: SweepTable) -> tuple[ParameterAxis, ...]:
     axes = []
     for dimension in table.dimensions:
         columns = [column for column in design_columns(table) if column.dimension == dimension.name]
-        if not columns or is_sampled(table, dimension.name) or over_sphere(table, dimension.name):
+        over_sphere = any(column.role == "elevation" for column in columns)
+        if not columns or over_sphere or is_sampled(table, dimension.name):
             continue
         numeric = [column for column in columns if column.kind in ("float", "int")]
         axis = axis_of(table, (numeric or columns)[0])

@@ -22,13 +22,11 @@ LEFT_OUT = ("exit_code", "tries", "seconds")
 
 def sweep_lines(sweep: SweepTable) -> list[str]:
     """Title, first points, and what is not shown, as wide as a terminal."""
-    columns = _columns(sweep)
-    while len(columns) > 1 and max(map(len, lines := _lines(sweep, columns))) >= WIDTH:
+    columns = every = _columns(sweep)
+    while max(map(len, lines := _lines(sweep, columns)), default=0) >= WIDTH and len(columns) > 1:
         columns = columns[:-1]
-    lines = _lines(sweep, columns)
-    others = [column.name for column, _ in _columns(sweep)[len(columns) :]]
-    more = [f"not shown: {', '.join(others)}"] if others else []
-    return [_title(sweep), *lines, *_more(sweep), *more]
+    others = [column.name for column, _ in every[len(columns) :]]
+    return [_title(sweep), *lines, *_more(sweep), *([f"not shown: {', '.join(others)}"] if others else [])]
 
 
 def sweep_html(sweep: SweepTable) -> str:
@@ -54,7 +52,7 @@ def _columns(sweep: SweepTable) -> list[tuple[SweepColumn, Any]]:
 
 
 def _heads(columns: Sequence[tuple[SweepColumn, Any]]) -> list[str]:
-    return [f"{column.name} [{column.unit}]" if column.unit else column.name for column, _ in columns]
+    return [column.header for column, _ in columns]
 
 
 def _rows(sweep: SweepTable, columns: Sequence[tuple[SweepColumn, Any]]) -> list[list[str]]:

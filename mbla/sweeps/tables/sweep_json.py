@@ -97,10 +97,8 @@ def positions_at(places: Sequence[int] | None, dimensions: Sequence[DesignDimens
 def read_sweep_table(path: Path) -> SweepTable:
     """The table of a sweep from its folder, its sweep.csv or its sweep.json.
 
-    Raises
-    ------
-    FileError
-        there is none, it cannot be read, it is no table of a sweep, or the two files do not belong together
+    Raises FileError: there is none, it cannot be read, it is no table of a sweep, or the two files do not belong
+    together.
     """
     folder = path if path.is_dir() else path.parent
     if path != folder and path.name not in (CSV, JSON):

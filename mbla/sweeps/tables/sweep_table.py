@@ -93,35 +93,24 @@ def sweep_table(
     keys     : key of each point of the design, in their order; points with one key have one outcome
     """
     found = [outcomes.get(key) for key in keys]
-    parts: list[tuple[SweepColumn, Values]] = [
-        (POINT, column_values("int", [point.number for point in design.points])),
-        *(
-            (column, column_values(column.kind, [point.values[row] for point in design.points]))
-            for row, column in enumerate(design.columns)
-        ),
-        (STATE, _own("state", "text", found)),
-        *(
-            (column, column_values(column.kind, [None if o is None else o.results.get(column.name) for o in found]))
-            for column in columns
-        ),
-        *((column, _own(column.name, column.kind, found)) for column in AFTER),
-    ]
+    cells: list[tuple[SweepColumn, Sequence[Plain]]] = [(POINT, [point.number for point in design.points])]
+    cells += [(column, [point.values[row] for point in design.points]) for row, column in enumerate(design.columns)]
+    cells += [(STATE, _own(STATE, found))]
+    cells += [(each, [None if one is None else one.results.get(each.name) for one in found]) for each in columns]
+    cells += [(column, _own(column, found)) for column in AFTER]
+    both = zip(design.columns, design.levels, strict=True)
+    levels = {column.name: column_values(column.kind, values) for column, values in both}
     position = np.array([point.position for point in design.points], dtype=np.int64)
     return SweepTable(
         title=title,
-        columns=tuple(column for column, _ in parts),
-        values=tuple(values for _, values in parts),
+        columns=tuple(column for column, _ in cells),
+        values=tuple(column_values(column.kind, values) for column, values in cells),
         dimensions=design.dimensions,
         position=position.reshape(len(design.points), len(design.dimensions)),
-        levels=_levels(design),
+        levels=levels,
         samples=design.samples,
         sampling=design.sampling,
     )
-
-
-def _levels(design: Design) -> dict[str, Values]:
-    pairs = zip(design.columns, design.levels, strict=True)
-    return {column.name: column_values(column.kind, values) for column, values in pairs}
 
 
 READ_CELL: Mapping[str, Callable[[str], Plain]] = {
@@ -160,5 +149,5 @@ def as_text(value: Plain) -> str:
     return "null" if value is None else str(value)
 
 
-def _own(name: str, kind: str, found: Sequence[PointOutcome | None]) -> Values:
-    return column_values(kind, [None if outcome is None else getattr(outcome, name) for outcome in found])
+def _own(column: SweepColumn, found: Sequence[PointOutcome | None]) -> list[Plain]:
+    return [None if outcome is None else getattr(outcome, column.name) for outcome in found]

@@ -10,7 +10,7 @@ values, which xarray shows as nan.
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -106,22 +106,10 @@ def sweep_parquet(record: Mapping[str, Any], table: SweepTable) -> bytes:
     return parquet_bytes(columns, about)
 
 
-PARQUET, HDF5, FRAGILITY = "sweep.parquet", "sweep.h5", "sweep_fragility.csv"
+FRAGILITY = "sweep_fragility.csv"
+FURTHER = {"parquet": "sweep.parquet", "hdf5": "sweep.h5"}
+"""the table in other forms, on request"""
 PICTURES = ("png", "svg")
-
-
-@dataclass(frozen=True)
-class TableFiles:
-    """What is written next to sweep.csv and sweep.json."""
-
-    parquet: bool = False
-    hdf5: bool = False
-
-    @property
-    def names(self) -> tuple[str, ...]:
-        """Of all of them."""
-        asked = ((PARQUET, self.parquet), (HDF5, self.hdf5))
-        return (CSV, JSON, *(name for name, wanted in asked if wanted))
 
 
 @dataclass(frozen=True)
@@ -144,42 +132,34 @@ class StudyResult:
     exit_code: int | None = None
 
 
-def refuse_tables(folder: Path, files: TableFiles, *, replace: bool) -> None:
+def refuse_tables(folder: Path, further: Collection[str], *, replace: bool) -> None:
     """What ``write_tables`` would refuse, now and not after the work.
 
-    Raises
-    ------
-    FileError
-        files of an earlier table are in the way
-    UsageError
-        what Parquet needs is not installed
+    Raises FileError where files of an earlier table are in the way, UsageError without what Parquet needs.
     """
-    if files.parquet:
+    if "parquet" in further:
         require_parquet()
-    OutputFolder(folder, "sweep", replace, secondary=True).refuse(*files.names)
+    names = (CSV, JSON, *(name for form, name in FURTHER.items() if form in further))
+    OutputFolder(folder, "sweep", replace, secondary=True).refuse(*names)
 
 
 def write_tables(
-    folder: Path, record: Mapping[str, Any], table: SweepTable, files: TableFiles, study: StudyResult
+    folder: Path, record: Mapping[str, Any], table: SweepTable, further: Collection[str], study: StudyResult
 ) -> tuple[dict[str, Any], str]:
     """Write the files; the record with their names, as in sweep.json, and why there are no pictures, if that is so.
 
-    Raises
-    ------
-    FileError
-        a file cannot be written
-    UsageError
-        what Parquet needs is not installed
+    further : keys of ``FURTHER``
+
+    Raises FileError where a file cannot be written, UsageError without what Parquet needs.
     """
     remark = _without_pictures() if study.pictures else ""
     with OutputFolder(folder, "sweep", True, secondary=True) as out:
         out.write_text(CSV, csv_text([column.header for column in table.columns], table.values))
         for name, text in study.texts.items():
             out.write_text(name, text)
-        if files.parquet:
-            out.write_bytes(PARQUET, sweep_parquet(record, table))
-        if files.hdf5:
-            out.write_bytes(HDF5, sweep_hdf5(record, table))
+        for form, bytes_of in (("parquet", sweep_parquet), ("hdf5", sweep_hdf5)):
+            if form in further:
+                out.write_bytes(FURTHER[form], bytes_of(record, table))
         for stem, draw in () if remark else study.pictures.items():
             for ending in PICTURES:
                 with out.writing(f"{stem}.{ending}") as path:

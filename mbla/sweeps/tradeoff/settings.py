@@ -86,13 +86,12 @@ def settings_of(deck: Deck, fixed: Sequence[str], named: Sequence[Setting]) -> l
 
 def _preset(deck: Deck, fixed: Sequence[str], word: str) -> Setting:
     """One word, free of the knobs that the deck sets by itself."""
-    own: dict[str, Plain] = {"accuracy": word}
     without = given_knobs(deck, fixed)
     if not without:
-        return Setting(f"accuracy: {word}", {f"analysis.{key}": value for key, value in own.items()})
+        return Setting(f"accuracy: {word}", {"analysis.accuracy": word})
     section = effective_tree(deck.path, fixed).data["analysis"]
     kept: dict[str, Plain] = {key: value for key, value in section.items() if key not in without}
-    return Setting(f"accuracy: {word}", {"analysis": kept | own}, without)
+    return Setting(f"accuracy: {word}", {"analysis": kept | {"accuracy": word}}, without)
 
 
 def given_knobs(deck: Deck, fixed: Sequence[str]) -> tuple[str, ...]:
@@ -157,8 +156,6 @@ def _named(text: str) -> Setting:
     name, _, rest = text.partition(":")
     texts = rest.split()
     if not name.strip() or not texts or not all("=" in each for each in texts):
-        raise UsageError(
-            "tradeoff-option",
-            f"--setting {text}: must be 'NAME: KEY.PATH=VALUE KEY.PATH=VALUE ...', values without spaces",
-        )
+        words = f"--setting {text}: must be 'NAME: KEY.PATH=VALUE KEY.PATH=VALUE ...', values without spaces"
+        raise UsageError("tradeoff-option", words)
     return Setting(" ".join(name.split()), dict(_choice(each)[0] for each in texts))

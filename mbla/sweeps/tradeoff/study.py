@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Sequence
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -35,7 +36,7 @@ from mbla.sweeps.command import Finished, Report, run_sweep
 from mbla.sweeps.engine.engine import NOT_BEGUN, EngineOptions
 from mbla.sweeps.engine.supervised import STOPPED
 from mbla.sweeps.plan import DONE
-from mbla.sweeps.studies import heading_lines, prepared_study, study_options
+from mbla.sweeps.studies import heading_lines, prepared_study, study_options, study_plan
 from mbla.sweeps.tables.sweep_table import SweepColumn, SweepTable
 from mbla.sweeps.tables.write_tables import StudyResult
 from mbla.sweeps.tradeoff.settings import REFERENCE, Setting, named_settings, settings_of
@@ -60,12 +61,8 @@ def tradeoff(deck: Deck, run: RunOptions, options: Any, report: Report | None) -
 
     options : ``knob`` and ``setting`` texts, ``wanted_error``, ``time_limit``, ``run_limit`` [s] or None
 
-    Raises
-    ------
-    DeckError, UsageError
-        The deck is not valid, there is no such load case, two settings have one name, or none applies.
-    FileError
-        Files are in the way or cannot be written.
+    Raises DeckError, UsageError: the deck is not valid, there is no such load case, two settings have one name, or none
+    applies. Raises FileError: files are in the way or cannot be written.
     """
     until = None if options.time_limit is None else time.monotonic() + options.time_limit
     named = named_settings(options.knob, options.setting)
@@ -77,8 +74,9 @@ def tradeoff(deck: Deck, run: RunOptions, options: Any, report: Report | None) -
     settings = settings_of(deck, run.overrides, named)
     points = {setting.name: setting.settings for setting in settings if not setting.unfit}
     study_of = partial(study_result_of, deck, model, tuple(cases.values()), settings, options.wanted_error)
-    asked = (run.overrides, tuple(cases), RESULTS, chosen.folder, SETTING, points, study_of)
-    return run_sweep(prepared_study(deck, "tradeoff", *asked, options.run_limit, timed=True), chosen, report)
+    plan = study_plan(deck, run.overrides, tuple(cases), RESULTS, chosen.folder)
+    plan = replace(plan, time_limit=options.run_limit, timed=True)
+    return run_sweep(prepared_study(deck, "tradeoff", plan, SETTING, points, study_of), chosen, report)
 
 
 def study_result_of(

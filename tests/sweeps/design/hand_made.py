@@ -8,7 +8,7 @@ from typing import Any
 from mbla.deck.text.tree import key_text
 from mbla.errors import Fault, KeyPath, Message, Place
 from mbla.sweeps.design.build import design_of
-from mbla.sweeps.design.design import Design, Sources, Vector
+from mbla.sweeps.design.design import Design, Sources, TurnedVector
 from mbla.sweeps.file import rules
 from mbla.sweeps.file.content import SweepContent
 
@@ -28,7 +28,7 @@ def fault_at(path: KeyPath, message: Message) -> Fault:
 def design(
     parameters: Mapping[str, Any],
     *,
-    vectors: Mapping[str, Vector] | None = None,
+    vectors: Mapping[str, TurnedVector] | None = None,
     units: Mapping[str, str] | None = None,
     known: Mapping[str, object] | None = None,
     **keys: Any,

@@ -9,14 +9,14 @@ from scipy import stats
 from scipy.spatial import SphericalVoronoi
 
 from mbla.errors import DeckError
-from mbla.sweeps.design.design import Design, Vector
+from mbla.sweeps.design.design import Design, TurnedVector
 from mbla.sweeps.design.directions import sine_cosine
 from tests.sweeps.design.hand_made import column, design, drawn
 
-BASE: Vector = (3.0, 4.0, -12.0)
+BASE: TurnedVector = (3.0, 4.0, -12.0)
 
 
-def directions(parameter: dict[str, Any], vector: Vector = BASE) -> Design:
+def directions(parameter: dict[str, Any], vector: TurnedVector = BASE) -> Design:
     return design({"x": {"key": "loads.wind", **parameter}}, vectors={"x": vector})
 
 
@@ -83,7 +83,7 @@ def test_drawn_directions_are_uniform_over_the_sphere() -> None:
         ({"sphere": {"points": 4}}, (1.7e308, 1.7e308, 0.0), "turns a vector that is longer than a number holds"),
     ],
 )
-def test_refusals(parameter: dict[str, Any], vector: Vector, message: str) -> None:
+def test_refusals(parameter: dict[str, Any], vector: TurnedVector, message: str) -> None:
     with pytest.raises(DeckError) as caught:
         directions(parameter, vector)
     [fault] = caught.value.faults

@@ -5,6 +5,7 @@ from __future__ import annotations
 import signal
 import subprocess
 import sys
+from contextlib import closing
 from pathlib import Path
 
 import pytest
@@ -95,7 +96,7 @@ def test_a_point_that_runs_out_of_memory_is_tried_without_what_others_left(
 @pytest.mark.long
 def test_one_that_nobody_asks_ends_and_another_takes_its_place(tmp_path: Path) -> None:
     code = "from mbla.sweeps.engine import child; child.IDLE = 0.1; child.main()"
-    with SupervisedRunner(plan_over(tmp_path), (sys.executable, "-c", code)) as runner:
+    with closing(SupervisedRunner(plan_over(tmp_path), (sys.executable, "-c", code))) as runner:
         for number in (1, 2):
             assert runner.run(Task("key", number, {})).state == DONE
             assert runner._process is not None

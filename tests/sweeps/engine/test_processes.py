@@ -26,7 +26,7 @@ class Runner:
         self.begun.append(self)
         self.plan, self.stopped = plan, False
 
-    def kill(self) -> None:
+    def close(self) -> None:
         """As from another thread."""
         self.stopped = True
 
@@ -60,9 +60,9 @@ def test_a_process_is_kept_for_the_next_point_of_the_same_plan_only(begun: list[
         assert pool.run(each, TASK).state == DONE
     first, second = begun
     assert (first.stopped, second.stopped) == (True, False)
-    pool.end_of(plan)
+    pool.end(plan)
     assert not second.stopped
-    pool.end_of(other)
+    pool.end(other)
     assert second.stopped
     pool.run(other, TASK)
     assert len(begun) == 3

@@ -8,6 +8,7 @@ import sys
 import threading
 import time
 from collections.abc import Callable
+from contextlib import closing
 from pathlib import Path
 
 import pytest
@@ -59,7 +60,7 @@ def wait_for(condition: Callable[[], object]) -> None:
 def test_points_are_solved_and_faulty_ones_told(tmp_path: Path) -> None:
     faulty = Task("bad", 9, {"parameters.mu": -1.0})
     before = set(children())
-    with SupervisedRunner(plan_over(tmp_path, memory_limit=1e9, time_limit=60.0)) as runner:
+    with closing(SupervisedRunner(plan_over(tmp_path, memory_limit=1e9, time_limit=60.0))) as runner:
         outcomes = [runner.run(task) for task in (*frictions(2), faulty, *frictions(1))]
         assert runner.started == 1
         assert set(children()) - before
@@ -74,7 +75,7 @@ def test_points_are_solved_and_faulty_ones_told(tmp_path: Path) -> None:
 def test_time_limit(tmp_path: Path) -> None:
     """A point without end is stopped; the next has a process of its own."""
     code = "task.number == 1 and time.sleep(60)"
-    with runner_that(plan_over(tmp_path, time_limit=0.5), code) as runner:
+    with closing(runner_that(plan_over(tmp_path, time_limit=0.5), code)) as runner:
         stopped, done = (runner.run(task) for task in frictions(2))
         assert runner.started == 2
     assert (stopped.state, stopped.exit_code, stopped.tries, stopped.results) == (FAILED, 7, 1, {})
@@ -84,7 +85,7 @@ def test_time_limit(tmp_path: Path) -> None:
 
 def test_memory_limit(tmp_path: Path) -> None:
     """Two megabytes above the base deck are enough for no wall of 400 blocks."""
-    with SupervisedRunner(plan_over(tmp_path, ROW, memory_limit=2e6)) as runner:
+    with closing(SupervisedRunner(plan_over(tmp_path, ROW, memory_limit=2e6))) as runner:
         outcome = runner.run(Task("key", 1, {"parameters.n": 20}))
     assert (outcome.state, outcome.exit_code) == (FAILED, 7)
     assert outcome.reason.startswith("more than the 2 MB of memory that a point may take")
@@ -93,19 +94,19 @@ def test_memory_limit(tmp_path: Path) -> None:
 @pytest.mark.parametrize("say", ["memory allocation of 8000000000 bytes failed", "std::bad_alloc"])
 def test_a_library_that_aborts_under_the_memory_limit(tmp_path: Path, say: str) -> None:
     code = f"print({say!r}, file=sys.stderr, flush=True); os.abort()"
-    with runner_that(plan_over(tmp_path, memory_limit=1e8), code) as runner:
+    with closing(runner_that(plan_over(tmp_path, memory_limit=1e8), code)) as runner:
         outcome = runner.run(TASK)
         assert runner.started == 1  # it was the first point of its process
     assert (outcome.exit_code, outcome.tries) == (7, 1)
     assert outcome.reason == ("more than the 100 MB of memory that a point may take (its process was ended by SIGABRT)")
-    with runner_that(plan_over(tmp_path), code) as runner:
+    with closing(runner_that(plan_over(tmp_path), code)) as runner:
         unlimited = runner.run(TASK)
     assert (unlimited.exit_code, unlimited.tries) == (1, 2)
 
 
 def test_memory_that_earlier_points_left_is_not_held_against_a_point(tmp_path: Path) -> None:
     code = "outcome = replace(outcome, state=FAILED, exit_code=7, reason='out of memory') if number > 1 else outcome"
-    with runner_that(plan_over(tmp_path, memory_limit=1e8), code) as runner:
+    with closing(runner_that(plan_over(tmp_path, memory_limit=1e8), code)) as runner:
         outcomes = [runner.run(TASK) for _ in range(2)]
     assert [(outcome.state, outcome.tries) for outcome in outcomes] == [(DONE, 1), (DONE, 2)]
 
@@ -113,7 +114,7 @@ def test_memory_that_earlier_points_left_is_not_held_against_a_point(tmp_path: P
 def test_killed_in_the_middle_of_a_point_it_is_solved_again(tmp_path: Path) -> None:
     before = set(children())
     found: list[PointOutcome] = []
-    with SupervisedRunner(plan_over(tmp_path, ROW)) as runner:
+    with closing(SupervisedRunner(plan_over(tmp_path, ROW))) as runner:
         runner.run(Task("small", 1, {}))
         (child,) = set(children()) - before
         thread = threading.Thread(target=lambda: found.append(runner.run(Task("large", 2, {"parameters.n": 20}))))
@@ -128,7 +129,7 @@ def test_killed_in_the_middle_of_a_point_it_is_solved_again(tmp_path: Path) -> N
 
 
 def test_a_point_that_kills_its_process_is_given_up(tmp_path: Path) -> None:
-    with runner_that(plan_over(tmp_path), "os.kill(os.getpid(), 9)") as runner:
+    with closing(runner_that(plan_over(tmp_path), "os.kill(os.getpid(), 9)")) as runner:
         outcome = runner.run(TASK)
         assert runner.started == 2
     assert (outcome.state, outcome.exit_code, outcome.tries) == (FAILED, 1, 2)
@@ -140,7 +141,7 @@ def test_a_point_that_kills_its_process_is_given_up(tmp_path: Path) -> None:
 def test_one_that_refuses_the_plan(tmp_path: Path) -> None:
     code = SAYS.replace("send('')", "send('another deck')")
     with (
-        SupervisedRunner(plan_over(tmp_path), (sys.executable, "-c", code)) as runner,
+        closing(SupervisedRunner(plan_over(tmp_path), (sys.executable, "-c", code))) as runner,
         pytest.raises(UsageError, match=r"^another deck$"),
     ):
         runner.run(TASK)
@@ -148,12 +149,14 @@ def test_one_that_refuses_the_plan(tmp_path: Path) -> None:
 
 def test_one_that_cannot_start_is_no_fault_of_the_point(tmp_path: Path) -> None:
     with (
-        SupervisedRunner(plan_over(tmp_path), (sys.executable, "-c", "import sys; sys.exit('no disk')")) as runner,
+        closing(
+            SupervisedRunner(plan_over(tmp_path), (sys.executable, "-c", "import sys; sys.exit('no disk')"))
+        ) as runner,
         pytest.raises(UsageError, match="cannot be started: its process ended with status 1: no disk"),
     ):
         runner.run(TASK)
     with (
-        SupervisedRunner(plan_over(tmp_path), (str(tmp_path / "none"),)) as runner,
+        closing(SupervisedRunner(plan_over(tmp_path), (str(tmp_path / "none"),))) as runner,
         pytest.raises(UsageError, match=r"cannot be started: .*No such file"),
     ):
         runner.run(TASK)
@@ -161,11 +164,11 @@ def test_one_that_cannot_start_is_no_fault_of_the_point(tmp_path: Path) -> None:
 
 def test_stopped_from_another_thread(tmp_path: Path) -> None:
     mark = tmp_path / "begun"
-    with runner_that(plan_over(tmp_path), f"open({str(mark)!r}, 'w'); time.sleep(60)") as runner:
+    with closing(runner_that(plan_over(tmp_path), f"open({str(mark)!r}, 'w'); time.sleep(60)")) as runner:
 
         def kill_when_begun() -> None:
             wait_for(mark.exists)
-            runner.kill()
+            runner.close()
 
         thread = threading.Thread(target=kill_when_begun)
         thread.start()

@@ -16,6 +16,7 @@ from mbla.errors import DeckError
 from mbla.sweeps.base import read_base
 from mbla.sweeps.design.build import design_of
 from mbla.sweeps.file.read import read_sweep
+from mbla.sweeps.identity import PointKeys
 from tests.deck.decks import write
 from tests.sweeps.file.sweeps import ALL_WAYS, ARCH
 
@@ -82,5 +83,5 @@ def is_refused(folder: Path, number: int) -> bool:
             assert len(line.removeprefix(str(folder))) < LONGEST, line
             assert "\n" not in line
         return True
-    assert len(base.keys.of(design.points[0].settings)) == 64
+    assert len(PointKeys(base.fingerprint, base.deck).of(design.points[0].settings)) == 64
     return False

@@ -8,7 +8,8 @@ import pytest
 
 from mbla.deck import read_deck
 from mbla.errors import DeckError
-from mbla.sweeps.file.content import MAX_POINTS, design_parts, is_random
+from mbla.sweeps.file.content import MAX_POINTS
+from mbla.sweeps.file.parts import design_parts, is_random
 from mbla.sweeps.file.read import Sweep, read_sweep
 from tests.deck.decks import BLOCK, write
 from tests.sweeps.file.sweeps import ALL_WAYS, GOOD, base_of

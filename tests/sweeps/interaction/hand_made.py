@@ -16,7 +16,7 @@ from mbla.process.run_options import RunOptions
 from mbla.sweeps.command import Prepared
 from mbla.sweeps.design.directions import horizontal
 from mbla.sweeps.engine.child import PointRunner
-from mbla.sweeps.interaction.domain import Domain, Points, domain_of, points_of
+from mbla.sweeps.interaction.domain import Domain, RayPoints, domain_of, points_of
 from mbla.sweeps.interaction.question import DIRECTION, InteractionQuestion, question_of
 from mbla.sweeps.interaction.study import prepared_diagram, study_result_of
 from mbla.sweeps.plan import PointOutcome
@@ -58,7 +58,7 @@ class Diagram:
     table: SweepTable
 
     @property
-    def points(self) -> Points:
+    def points(self) -> RayPoints:
         """Its points."""
         return points_of(self.table, self.question)
 

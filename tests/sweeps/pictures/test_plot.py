@@ -12,7 +12,7 @@ from mbla.results.pictures.options import PictureOptions
 from mbla.sweeps.fragility import fragility_of
 from mbla.sweeps.pictures.plot import SweepPictures, pictures_of
 from mbla.sweeps.tables.sweep_table import SweepTable
-from mbla.sweeps.tables.write_tables import StudyResult, TableFiles, write_tables
+from mbla.sweeps.tables.write_tables import StudyResult, write_tables
 from tests.sweeps.pictures.hand_made import FAILED, grid, sample, sphere
 from tests.sweeps.tables.synthetic import record, table
 
@@ -66,7 +66,7 @@ def test_what_does_not_fit_is_refused_with_the_reason(swept: SweepTable, changes
 @pytest.fixture
 def folder(tmp_path: Path) -> Path:
     found = fragility_of(table(), "load_factor", (0.2,), 0.95)
-    write_tables(tmp_path / "wall.out", record(fragility=found), table(), TableFiles(), StudyResult())
+    write_tables(tmp_path / "wall.out", record(fragility=found), table(), (), StudyResult())
     return tmp_path / "wall.out"
 
 

@@ -20,7 +20,7 @@ from mbla.results.record.scene import Values
 from mbla.sweeps.fragility import fragility_csv, fragility_of
 from mbla.sweeps.tables.sweep_json import SWEEP_RECORD, read_sweep_table, sweep_json
 from mbla.sweeps.tables.sweep_table import SweepTable, sweep_table
-from mbla.sweeps.tables.write_tables import FRAGILITY, StudyResult, TableFiles, refuse_tables, write_tables
+from mbla.sweeps.tables.write_tables import FRAGILITY, FURTHER, StudyResult, refuse_tables, write_tables
 from tests.sweeps.tables.synthetic import (
     ABOUT,
     CREATED,
@@ -34,13 +34,11 @@ from tests.sweeps.tables.synthetic import (
     table,
 )
 
-ALL = TableFiles(parquet=True, hdf5=True)
-
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("sweep") / "wall.out"
-    write_tables(folder, record(), table(), ALL, StudyResult())
+    write_tables(folder, record(), table(), FURTHER, StudyResult())
     return folder
 
 
@@ -138,18 +136,18 @@ def test_xarray_opens_the_file_along_the_axes_of_the_design(folder: Path) -> Non
 def test_files_appear_together_and_nothing_is_overwritten_unasked(folder: Path, tmp_path: Path) -> None:
     told = json.loads((folder / "sweep.json").read_text(encoding="utf-8"))
     names = ["sweep.csv", "sweep.h5", "sweep.json", "sweep.parquet"]
-    assert told["files"] == sorted(ALL.names) == sorted(path.name for path in folder.iterdir()) == names
+    assert told["files"] == sorted(path.name for path in folder.iterdir()) == names
     (tmp_path / "sweep.h5").write_bytes(b"mine")
     with pytest.raises(FileError, match=r"sweep\.h5: exists already"):
-        refuse_tables(tmp_path, ALL, replace=False)
-    write_tables(tmp_path, record(), table(), ALL, StudyResult())
+        refuse_tables(tmp_path, FURTHER, replace=False)
+    write_tables(tmp_path, record(), table(), FURTHER, StudyResult())
     assert same_tables(read_sweep_table(tmp_path), table())
 
 
 def test_probabilities_stand_in_the_record_and_in_a_file_of_their_own(tmp_path: Path) -> None:
     found = fragility_of(table(), "load_factor", (0.2,), 0.95)
     study = StudyResult(texts={FRAGILITY: fragility_csv(found, table())})
-    told, _ = write_tables(tmp_path, record(fragility=found), table(), TableFiles(), study)
+    told, _ = write_tables(tmp_path, record(fragility=found), table(), (), study)
     assert [each["at"] for each in told["fragility"]] == [{"mu": 0.5}, {"mu": 0.7}]
     assert "sweep_fragility.csv" in told["files"]
     frame = pandas.read_csv(tmp_path / "sweep_fragility.csv")
@@ -160,7 +158,7 @@ def test_probabilities_stand_in_the_record_and_in_a_file_of_their_own(tmp_path: 
 def test_parquet_without_its_extra_is_refused_before_the_work(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "pyarrow", None)
     with pytest.raises(UsageError, match=r"pip install 'mbla\[tables\]'"):
-        refuse_tables(tmp_path, TableFiles(parquet=True), replace=False)
+        refuse_tables(tmp_path, {"parquet"}, replace=False)
 
 
 # --- files that are none ------------------------------------------------------------------------------------------
@@ -214,7 +212,7 @@ def _without_state(folder: Path) -> None:
 def test_a_file_that_is_no_table_is_refused_in_one_line(
     tmp_path: Path, change: Callable[[Path], None], words: str
 ) -> None:
-    write_tables(tmp_path, record(), table(), TableFiles(), StudyResult())
+    write_tables(tmp_path, record(), table(), (), StudyResult())
     read_sweep_table(tmp_path)
     change(tmp_path)
     with pytest.raises(FileError, match=words) as caught:

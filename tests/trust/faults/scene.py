@@ -15,7 +15,7 @@ DECK = BLOCK + "output: {vtu: true, frames: 2}\n"
 PARTIAL = ("block.partial.h5", "block.partial.lst", "block.partial.json")
 PARTIAL_STATUS = "block.partial.sta"
 IMPORTED = (
-    *("mbla.run", "mbla.check", "mbla.cli.starter", "mbla.results.listing.summary", "mbla.results.pictures.plot"),
+    *("mbla.run", "mbla.check", "mbla.cli.starters", "mbla.results.listing.summary", "mbla.results.pictures.plot"),
     *("mbla.results.report.report", "mbla.results.tables.tables", "mbla.solution.verification.verify_convex"),
     *("h5py", "meshio", "clarabel"),
 )
