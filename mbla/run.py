@@ -139,7 +139,7 @@ def solved_case_by_case(
         states = StressFreeStates() if states is None else states
         for load_case in load_cases:
             tell = _teller(at_work, results, found, stopwatch)
-            travels = load_case.travel is not None  # which of its positions is pushed is known when all are solved
+            travels = load_case.question.place.count  # which of its positions is pushed is known when all are solved
             case = replace(load_case, pushover=None) if travels else load_case
             solved = solve_case(deck, assembly, case, settings, status_file, progress, tell, states)
             results = with_case(results, solved, time.perf_counter() - found, stopwatch)

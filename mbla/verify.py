@@ -25,6 +25,8 @@ from mbla.errors import DeckError, FileError, Notice
 from mbla.model.model import LoadCase
 from mbla.program.assemble import yield_limits
 from mbla.program.build import crushable_interfaces
+from mbla.questions.angle import Angle
+from mbla.questions.tilt import Tilt
 from mbla.results.exit_status import UNEXPECTED, exit_code
 from mbla.results.hdf5.content import content_of
 from mbla.results.hdf5.layout import Content, Value
@@ -137,12 +139,11 @@ def _recomputed_case(results: Results, case: CaseResult, deck: Deck | None) -> C
         crushable = bool(crushable_interfaces(model, contacts).any())
         solution = _as_asked_for(solution, load_case, deck, crushable=crushable)
     solution = with_derived(assembly, load_case, solution)
-    if load_case.tilt is not None:
-        tangent = found_tangent(model, contacts, load_case.tilt, load_case.live_load, solution)
-        tilt = replace(load_case.tilt, tangent=tangent)
-        upright = level_bound(assembly, replace(load_case, tilt=tilt), solution)
+    if tilt := load_case.question.record(Tilt):
+        tilt = replace(tilt, tangent=found_tangent(model, contacts, tilt, load_case.live_load, solution))
+        upright = level_bound(assembly, load_case, tilt.across, solution)
         angle = found_angle(tilt, load_case.live_load, solution)
-        load_case = replace(load_case, tilt=replace(tilt, upright=upright, angle=angle))
+        load_case = replace(load_case, question=Angle(replace(tilt, upright=upright, angle=angle)))
     checks = verify(assembly, load_case, solution)
     further = _further_again(results, deck, CaseResult(load_case, solution, checks, case.status))
     again = CaseResult(load_case, solution.with_further(further), checks, verified_status(solution, checks))

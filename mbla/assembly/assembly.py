@@ -42,15 +42,16 @@ class Assembly:
 
     def of(self, load_case: LoadCase) -> RigidBodies:
         """What the solver sees under a load case: with the load cell of its objective, and ties among the contacts."""
-        variant = _supports(load_case) + _measured(load_case)
+        variant = _supports(load_case) + load_case.question.measured
         if variant not in self._seen:
             self._seen[variant] = with_ties(self._with_load_cell(load_case))
         return self._seen[variant]
 
     def _with_load_cell(self, load_case: LoadCase) -> RigidBodies:
-        bodies, cell, question = self.glued(load_case), LoadCell.of(load_case), load_case.question
-        if cell is None or not isinstance(question, Force):
+        bodies, question = self.glued(load_case), load_case.question
+        if not isinstance(question, Force):
             return bodies
+        cell = LoadCell.of(question)
         # sides are those of blocks: a body may have some on either side, and some on none
         cut = replace(bodies.contacts, cut=question.objective.crossed(self.contacts.bodies))
         model, contacts = with_load_cell(bodies.model, cut, question.objective, cell, len(bodies.label))
@@ -68,15 +69,6 @@ def _supports(load_case: LoadCase) -> Variant:
     """Supports that give way, and how."""
     question = load_case.question
     return (question.giving_way.tobytes(), question.ways.tobytes()) if len(question.giving_way) else ()
-
-
-def _measured(load_case: LoadCase) -> Variant:
-    """What a load cell measures, and in which unit."""
-    question = load_case.question
-    if not isinstance(question, Force):
-        return ()
-    arrays = question.objective.sides, question.objective.ties, question.objective.direction
-    return question.settlement.sense, question.scale, *(array.tobytes() for array in arrays)
 
 
 def assembly_of(model: Model, contacts: Contacts) -> Assembly:

@@ -14,6 +14,7 @@ from mbla.model.model import LoadCase
 from mbla.model.objective import ENDS
 from mbla.model.ties.ties import OUTSIDE
 from mbla.model.wording import named
+from mbla.questions.force import Objective
 
 CANCELLED = 1e-12
 """sum of live loads on a body, relative to the loads themselves, at which they cancel"""
@@ -46,7 +47,7 @@ def objective_findings(assembly: Assembly) -> Iterator[tuple[KeyPath, Message]]:
     """Forces through cuts without a joint, and through glue, whose force nothing determines; each once."""
     model, contacts = assembly.model, assembly.contacts
     for case in model.load_cases:
-        objective, path = case.objective, ("load_cases", case.deck_name, "objective", "force")
+        objective, path = case.question.record(Objective), ("load_cases", case.deck_name, "objective", "force")
         if objective is None or objective.end != next(iter(ENDS)):
             continue
         if len(objective.ties):

@@ -37,11 +37,8 @@ class LoadCell:
     unit: float
 
     @staticmethod
-    def of(load_case: LoadCase) -> LoadCell | None:
-        """That of a load case; None without an objective."""
-        question = load_case.question
-        if not isinstance(question, Force):
-            return None
+    def of(question: Force) -> LoadCell:
+        """That of a force."""
         along = slide(question.objective.direction, 1)[0]
         return LoadCell(np.asarray(question.settlement.sense * along), question.scale)
 
@@ -52,10 +49,10 @@ class LoadCell:
 
     def loaded(self, load_case: LoadCase, body: int) -> LoadCase:
         """The load case with the settlement of its objective, and its loads, on the cell, a body of that number."""
-        settlement = load_case.settlement
-        assert settlement is not None  # every objective has one
-        on_cell = replace(settlement, blocks=np.array([body]), motions=self.direction[None])
-        return with_reference(replace(load_case, settlement=on_cell), settlement.reference)
+        question = load_case.question
+        assert isinstance(question, Force)  # what has a load cell
+        on_cell = replace(question.settlement, blocks=np.array([body]), motions=self.direction[None])
+        return with_reference(replace(load_case, question=replace(question, settlement=on_cell)), on_cell.reference)
 
 
 def with_load_cell(

@@ -61,16 +61,11 @@ class RigidBodies:
 
     def load_case(self, load_case: LoadCase) -> LoadCase:
         """Loads on the bodies, about their centroids; blocks that settle are not glued."""
-        case = replace(load_case, dead_load=self.loads(load_case.dead_load), live_load=self.loads(load_case.live_load))
-        settlement, tilt, always = load_case.settlement, load_case.tilt, self.tie_prestress_load
-        if settlement is not None:
-            case = replace(case, settlement=replace(settlement, blocks=self.label[settlement.blocks]))
-        if self.load_cell is not None and settlement is not None:
+        dead, live, always = self.loads(load_case.dead_load), self.loads(load_case.live_load), self.tie_prestress_load
+        question = load_case.question.on_bodies(self.label, self.loads, 0.0 if always is None else always)
+        case = replace(load_case, dead_load=dead, live_load=live, question=question)
+        if self.load_cell is not None:
             case = self.load_cell.loaded(case, len(self.model.blocks) - 1)
-        if tilt is not None:
-            fixed, turning, across = (self.loads(loads) for loads in (tilt.fixed, tilt.turning, tilt.across))
-            fixed = fixed if always is None else fixed + always
-            case = replace(case, tilt=replace(tilt, fixed=fixed, turning=turning, across=across))
         return case if always is None else replace(case, dead_load=case.dead_load + always)
 
     def loads(self, loads: FloatArray) -> FloatArray:

@@ -103,7 +103,8 @@ def _load_cases(
         return [build_settlement(section, path, load_case, supports, site.selection) for load_case in load_cases]
     for load_case in load_cases:
         if not site.selection.faults and does_nothing(load_case.live_load, supports):
-            where = "" if load_case.travel is None else f" at position {load_case.travel.number}"
+            place = load_case.question.place
+            where = f" at position {place.number}" if place.count else ""
             words = f"the supports take every live load{where}, for they act on guided blocks across what these may do"
             site.refuse(Finding("live-load-without-effect", words, *path, "live"))
     return load_cases

@@ -14,7 +14,6 @@ from mbla.errors import Finding, KeyPath
 from mbla.model.applied_load import AppliedLoad, without_levers
 from mbla.model.loads.gravity import gravity_of, with_gravity
 from mbla.model.loads.load_kind import CaseKind, Entry, LoadSite, Variant, entries_of, load_kind
-from mbla.model.loads.travel import case_name
 from mbla.model.model import LoadCase, Pushing
 from mbla.model.selectors import select_blocks
 from mbla.model.solids.plane import unit
@@ -83,25 +82,23 @@ def build_load_cases(name: str, section: LoadCaseSection, site: LoadSite) -> tup
     for entry in live_loads:
         if isinstance(kind := LOAD_KEYS[entry.kind], CaseKind):  # a rule of the deck: at most one is
             variants = kind.variants(name, entry, dead_loads, dead.net, site)
-    _judge_soil(name, gravity_of(dead_loads), any(each.tilt is not None for each in variants), site)
+    _judge_soil(name, gravity_of(dead_loads), any(each.question.tilts for each in variants), site)
     sound = len(site.selection.faults) == before
     cases = []
     for variant in variants:
-        position = variant.travel
+        place = variant.question.place
         own = live if variant.load is None else live.plus(variant.load)
         if len(site.selection.faults) == before and own.complete and section.live is not None:
             _judge_live(variant.load, path, own, site)
         asked = None if section.pushover is None else section.pushover.position
-        here = asked is None or position is None or position.number == asked
         case = LoadCase(
-            name if position is None else case_name(position),
+            name + place.suffix,
             dead.net,
             own.net,
             dead.loads,
             own.loads,
-            travel=position,
-            tilt=variant.tilt,
-            pushover=_pushing(name, section, dead, own, site) if here else None,
+            question=variant.question,
+            pushover=_pushing(name, section, dead, own, site) if asked in (None, place.number) else None,
             assessment=section.assessment,
         )
         cases.append(case)

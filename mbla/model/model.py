@@ -18,12 +18,7 @@ from mbla.model.solids.blocks import Blocks
 from mbla.model.solids.facets import NO_BENT_FACES, BentFaces
 from mbla.model.ties.ties import NO_TIES, Ties
 from mbla.questions import Question
-from mbla.questions.angle import Angle
-from mbla.questions.force import Force, Objective
-from mbla.questions.load_factor import LoadFactor
-from mbla.questions.reaction import Reaction, Settlement
-from mbla.questions.tilt import Tilt
-from mbla.questions.travel import Travel, TravelPosition
+from mbla.questions.load_factor import LOAD_FACTOR
 
 
 @dataclass(frozen=True)
@@ -94,9 +89,7 @@ class LoadCase:
 
     dead_load, live_load : (n_blocks, 6) force N and moment N m, also on fixed blocks (they go into the support)
     dead, live : the loads that these are the sums of
-    settlement : settling support, None for none
-    objective  : force whose least or greatest value is looked for, as reaction of a load cell; None for none
-    travel, tilt : where it is a position of a travelling load, or a tilting table
+    question : the figure that its load factor stands for
     pushover : the pushover that follows limit analysis, None for none; before the positions of a travelling load are
                solved, all positions that may be pushed have it, afterwards the one that is pushed
     assessment : the question to a code, None for none
@@ -107,21 +100,9 @@ class LoadCase:
     live_load: FloatArray
     dead: tuple[AppliedLoad, ...]
     live: tuple[AppliedLoad, ...]
-    settlement: Settlement | None = None
-    objective: Objective | None = None
-    travel: TravelPosition | None = None
-    tilt: Tilt | None = None
+    question: Question = LOAD_FACTOR
     pushover: Pushing | None = None
     assessment: AssessmentSection | None = None
-
-    @property
-    def question(self) -> Question:
-        """What it asks: the figure that its load factor stands for."""
-        if self.settlement is not None:
-            return Reaction(self.settlement) if self.objective is None else Force(self.settlement, self.objective)
-        if self.tilt is not None:
-            return Angle(self.tilt)
-        return LoadFactor() if self.travel is None else Travel(self.travel)
 
     @property
     def dead_words(self) -> tuple[str, ...]:

@@ -35,7 +35,7 @@ from mbla.model.settlement import size_of_loads
 from mbla.model.solids.plane import unit
 from mbla.model.ties.ties import OUTSIDE, Ties
 from mbla.model.wording import counted, named, vector
-from mbla.questions.force import Objective
+from mbla.questions.force import Force, Objective
 from mbla.questions.reaction import Settlement
 
 ENDS = {"least": 1.0, "greatest": -1.0}
@@ -75,8 +75,9 @@ def build_objective(
             live_load=np.zeros_like(dead),
             dead=(*load_case.dead, *(load.times(at) for load in load_case.live)),
             live=(without_forces(f"{end} {found.words}"),),
+            question=Force(settlement, objective),
         )
-        cases.append(replace(case, settlement=settlement, objective=objective))
+        cases.append(case)
     return cases
 
 

@@ -18,6 +18,7 @@ from mbla.model.guides import Guides
 from mbla.model.model import LoadCase, Model, Pushing
 from mbla.model.solids.blocks import Blocks
 from mbla.model.ties.ties import NO_TIES
+from mbla.questions.angle import Angle
 from mbla.questions.tilt import Tilt
 
 
@@ -83,8 +84,9 @@ def moved_case(case: LoadCase, pose: Pose) -> LoadCase:
     assert push is not None  # else its levers are not known
     dead = _turned(case.dead_load, push.dead_levers, push.dead_following, pose)
     live = _turned(case.live_load, push.live_levers, push.live_following, pose)
-    tilt = None if case.tilt is None else _moved_tilt(case.tilt, dead, push, pose)
-    return replace(case, dead_load=dead, live_load=live, tilt=tilt)
+    tilt = case.question.record(Tilt)
+    question = Angle(_moved_tilt(tilt, dead, push, pose)) if tilt else case.question
+    return replace(case, dead_load=dead, live_load=live, question=question)
 
 
 def _moved_tilt(tilt: Tilt, dead: FloatArray, push: Pushing, pose: Pose) -> Tilt:

@@ -33,7 +33,7 @@ from mbla.model.solids.blocks import Blocks
 from mbla.model.solids.plane import unit
 from mbla.model.supports import Supports
 from mbla.model.wording import counted, named, vector
-from mbla.questions.reaction import Settlement
+from mbla.questions.reaction import Reaction, Settlement
 
 
 def build_settlement(
@@ -71,7 +71,7 @@ def build_settlement(
         levers = pushover.dead_levers.copy()
         levers[blocks] = 0.0  # the reaction acts on their centroids
         pushover = replace(pushover, blocks=chosen, direction=unit(farthest.direction), dead_levers=levers)
-    return with_reference(replace(load_case, settlement=settlement, pushover=pushover), np.nan)
+    return with_reference(replace(load_case, question=Reaction(settlement), pushover=pushover), np.nan)
 
 
 def _giving_way(
@@ -133,15 +133,20 @@ def size_of_loads(loads: FloatArray, blocks: Blocks, chosen: BoolArray) -> float
 
 def with_reference(load_case: LoadCase, reference: float) -> LoadCase:
     """The load case with the reaction of the structure at rest, which is its dead load on the settling blocks."""
-    settlement = load_case.settlement
-    assert settlement is not None
+    question = load_case.question
+    assert isinstance(question, Reaction)
+    settlement = question.settlement
     per_unit = _forces_of_unit_reaction(settlement)
     dead, live = load_case.dead_load.copy(), np.zeros_like(load_case.dead_load)
     live[settlement.blocks] = settlement.unit * per_unit
     dead[settlement.blocks] = 0.0 if np.isnan(reference) else -reference * per_unit
     pull = AppliedLoad(settlement.blocks, without_levers(live[settlement.blocks]), settlement.words)
     return replace(
-        load_case, dead_load=dead, live_load=live, live=(pull,), settlement=replace(settlement, reference=reference)
+        load_case,
+        dead_load=dead,
+        live_load=live,
+        live=(pull,),
+        question=replace(question, settlement=replace(settlement, reference=reference)),
     )
 
 

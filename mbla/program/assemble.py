@@ -57,7 +57,7 @@ def _assemble_unguided(model: Model, contacts: Contacts, load_case: LoadCase, ow
             free=free,
             n_blocks=len(model.blocks),
             areas=stiffness_areas(contacts),
-            settling_support=load_case.settlement is not None,
+            settling_support=not load_case.question.multiplies,
             allowed=guide_projector(model, free, scaling),
             brittle=None if contacts.ties is None else brittle_points(contacts, contacts.ties),
         ),

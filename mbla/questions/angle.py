@@ -7,10 +7,13 @@ table to the angle, and λ is 1 there: the angle is found by a sequence of analy
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
-from typing import ClassVar
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import ClassVar, Self
 
-from mbla.arrays import FloatArray
+import numpy as np
+
+from mbla.arrays import FloatArray, IntArray
 from mbla.deck.units import Units
 from mbla.questions.figures import significant
 from mbla.questions.question import Question, interval
@@ -29,36 +32,30 @@ class Angle(Question):
     group: ClassVar[str] = "angle"
     paths: ClassVar[tuple[str, str, str]] = ("angle", "angle_bounds.0", "angle_bounds.1")
     entries_first: ClassVar[bool] = False
+    tilts: ClassVar[bool] = True
     title: ClassVar[str] = "angle"
     decided_by: ClassVar[tuple[str, ...]] = ("associative",)
+    kind = "degree"
+    unlimited = math.nan
+    unbounded = "no angle of collapse: it bears gravity turned by every angle up to 180 degrees"
     no_target: ClassVar[str] = (
         "a tilting table has an angle for its answer, no load factor; mbla sweep gives that for values"
     )
 
-    @property
-    def kind(self) -> str:
-        """Degrees, in every system of units."""
-        return "degree"
-
-    @property
-    def unlimited(self) -> float:
-        """None."""
-        return math.nan
+    def on_bodies(self, body: IntArray, loads: Callable[[FloatArray], FloatArray], always: FloatArray | float) -> Self:
+        """Its loads on them; what always acts does not turn."""
+        there = self.tilt.with_loads(loads)
+        return replace(self, tilt=replace(there, fixed=there.fixed + always))
 
     def value(self, load_factor: float) -> float:
         """The angle of which λ is the tangent, or to which the loads lead where λ is 1."""
-        if not self.tilt.tangent and self.tilt.angle != 0.0 and not abs(load_factor - 1.0) <= AT_COLLAPSE:
+        if self.by_steps and self.tilt.angle != 0.0 and not abs(load_factor - 1.0) <= AT_COLLAPSE:
             return math.nan
         return self.stated(load_factor)
 
     def stated(self, load_factor: float) -> float:
         """That to which the loads lead also where λ is 1 only approximately."""
         return math.degrees(math.atan(load_factor)) if self.tilt.tangent else self.tilt.angle
-
-    @property
-    def unbounded(self) -> str:
-        """Of a table turned over."""
-        return "no angle of collapse: it bears gravity turned by every angle up to 180 degrees"
 
     def bounds(self, static: float, kinematic: float, mechanism: FloatArray | None) -> tuple[float, float]:
         """Angle that is certainly borne and angle that is certainly not, in degrees."""
@@ -85,10 +82,21 @@ class Angle(Question):
         """In degrees."""
         return math.degrees(followed)
 
+    def loads_at(self, dead: FloatArray, live: FloatArray, followed: float) -> tuple[FloatArray, ...]:
+        """At an angle t: fixed + cos t turning, (sin t / t) across; they change by −sin t turning + cos t across."""
+        tilt, cos, sin = self.tilt, np.cos(followed), np.sin(followed)
+        live = np.sinc(followed / np.pi) * tilt.across
+        return tilt.fixed + cos * tilt.turning, live, cos * tilt.across - sin * tilt.turning
+
+    @property
+    def by_steps(self) -> bool:
+        """Where the load factor is not the tangent of the angle."""
+        return not self.tilt.tangent
+
     @property
     def no_sensitivity(self) -> str:
         """An angle by steps."""
-        return "" if self.tilt.tangent else "the angle of the tilting table is not the arc tangent of the load factor"
+        return "the angle of the tilting table is not the arc tangent of the load factor" * self.by_steps
 
     def least(self, ratio: float) -> float:
         """None: angles are compared as they are."""

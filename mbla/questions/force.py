@@ -62,6 +62,12 @@ class Force(Reaction):
         return self.objective.series
 
     @property
+    def measured(self) -> tuple[bytes | float, ...]:
+        """The cut or the ties, and the direction."""
+        arrays = self.objective.sides, self.objective.ties, self.objective.direction
+        return self.settlement.sense, self.scale, *(array.tobytes() for array in arrays)
+
+    @property
     def what(self) -> str:
         """Which end it is."""
         return f"{self.objective.end} force"

@@ -30,3 +30,7 @@ class LoadFactor(Question):
     def told(self, value: float, units: Units) -> str:
         """``0.643 times the live load``."""
         return f"{significant(value)} times the live load"
+
+
+LOAD_FACTOR = LoadFactor()
+"""what is asked where nothing else is"""

@@ -7,14 +7,17 @@ or a figure f(λ): the reaction of a support, a force, an angle. All that result
 from __future__ import annotations
 
 import math
-from typing import ClassVar, Protocol
+from collections.abc import Callable
+from typing import ClassVar, Protocol, Self, TypeVar
 
 import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
 from mbla.deck.units import Units
 from mbla.questions.figures import significant
+from mbla.questions.travel_position import NOWHERE, TravelPosition
 
+Record = TypeVar("Record")
 ZERO = 1e-3
 """Share of dead over live load, and of the unit of a reaction: smaller figures are compared as if they were that."""
 
@@ -36,6 +39,7 @@ class Question(Protocol):
     multiplies        : λ multiplies a live load, and one near zero may be so by the rounding of loads alone
     rounding_told     : its words say how much that may be
     collapses         : the state at λ is one of collapse; not where a force is sought through a structure at rest
+    tilts             : gravity turns, as on a tilting table
 
     Words
 
@@ -58,6 +62,7 @@ class Question(Protocol):
     multiplies: ClassVar[bool] = True
     rounding_told: ClassVar[bool] = False
     collapses: ClassVar[bool] = True
+    tilts: ClassVar[bool] = False
     entries_first: ClassVar[bool] = True
     title: ClassVar[str]
     applied: ClassVar[str] = "live load"
@@ -67,6 +72,26 @@ class Question(Protocol):
     no_equilibrium: ClassVar[str] = "no equilibrium: the structure cannot carry its dead load"
     no_target: ClassVar[str] = ""
     no_safety: ClassVar[str] = ""
+
+    # --- what it is about -------------------------------------------------------------------------------------------
+
+    def record(self, kind: type[Record]) -> Record | None:
+        """What it needs of that kind; None where that belongs to another question."""
+        return next((each for each in vars(self).values() if isinstance(each, kind)), None)
+
+    @property
+    def place(self) -> TravelPosition:
+        """Where a travelling load stands."""
+        return NOWHERE
+
+    @property
+    def measured(self) -> tuple[bytes | float, ...]:
+        """What a load cell measures, and in which unit, by values that can be compared."""
+        return ()
+
+    def on_bodies(self, body: IntArray, loads: Callable[[FloatArray], FloatArray], always: FloatArray | float) -> Self:
+        """Of rigid bodies: ``body`` of each block, ``loads`` on them from loads on blocks, what acts ``always``."""
+        return self
 
     # --- the figure -------------------------------------------------------------------------------------------------
 
@@ -141,6 +166,11 @@ class Question(Protocol):
         """The smallest figure that means something."""
         return self.least_factor(ratio)
 
+    @property
+    def by_steps(self) -> bool:
+        """Whether a sequence of analyses finds the figure, and other λ stand for none."""
+        return False
+
     # --- pushovers ----------------------------------------------------------------------------------------------------
 
     def pushed(self, live_load: FloatArray) -> FloatArray:
@@ -154,6 +184,10 @@ class Question(Protocol):
     def value_at(self, followed: float) -> float:
         """The figure that belongs to what a pushover follows."""
         return self.value(followed)
+
+    def loads_at(self, dead: FloatArray, live: FloatArray, followed: float) -> tuple[FloatArray, ...]:
+        """Dead load, live load per unit of what is followed, change of their sum with it; from those of the case."""
+        return dead, live, live
 
     # --- words --------------------------------------------------------------------------------------------------------
 

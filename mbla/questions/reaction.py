@@ -7,8 +7,9 @@ reaction = reaction at rest − λ × unit, so that the kinematic bound of λ gi
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
-from typing import ClassVar
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import ClassVar, Self
 
 from mbla.arrays import FloatArray, IntArray
 from mbla.deck.units import Units
@@ -65,8 +66,12 @@ class Reaction(Question):
     control: ClassVar[str] = "support"
     powers: ClassVar[tuple[str, str]] = ("loss of reaction", "dead load and reaction at rest")
     no_target: ClassVar[str] = "its answer is a force, which is no target; choose another load case, or mbla sweep"
-
     no_safety: ClassVar[str] = "a support gives way"
+    no_sensitivity = "of a support that gives way the load factor counts from a reference that changes as well"
+
+    def on_bodies(self, body: IntArray, loads: Callable[[FloatArray], FloatArray], always: FloatArray | float) -> Self:
+        """With bodies for its blocks, none of which is glued."""
+        return replace(self, settlement=replace(self.settlement, blocks=body[self.settlement.blocks]))
 
     @property
     def kind(self) -> str:
@@ -144,11 +149,6 @@ class Reaction(Question):
     def unbounded(self) -> str:
         """Of a support that the structure does not let go."""
         return "no least reaction: the structure holds the support back however hard that pulls away from it"
-
-    @property
-    def no_sensitivity(self) -> str:
-        """The reaction at rest changes too."""
-        return "of a support that gives way the load factor counts from a reference that changes as well"
 
     @property
     def forces_drawn(self) -> str:

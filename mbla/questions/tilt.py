@@ -9,7 +9,8 @@ difference of the loads at both ends of the line, has the power 1 (limit theorem
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -51,6 +52,14 @@ class Tilt:
         """Loads after a turn by an angle in degrees, (n_blocks, 6)."""
         turn = np.deg2rad(angle)
         return np.asarray(self.fixed + np.cos(turn) * self.turning + np.sin(turn) * self.across)
+
+    def with_loads(self, changed: Callable[[FloatArray], FloatArray]) -> Tilt:
+        """The same table with other loads, from each of them."""
+        return replace(self, fixed=changed(self.fixed), turning=changed(self.turning), across=changed(self.across))
+
+    def borne_to(self, angle: float) -> bool:
+        """Whether it is proved to bear every angle before one, in radians, that is on the limit of what it bears."""
+        return self.upright >= math.tan(angle / 2.0)
 
 
 @dataclass(frozen=True)

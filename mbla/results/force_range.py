@@ -25,9 +25,10 @@ GRAVEST_FIRST = (
 
 @dataclass(frozen=True)
 class ForceRange:
-    """The ends of one force that were solved, by their names ``least`` and ``greatest``."""
+    """The ends of one force that were solved, by their names ``least`` and ``greatest``; what one of them asks."""
 
     name: str
+    question: Force
     ends: dict[str, CaseResult]
 
     @property
@@ -38,12 +39,12 @@ class ForceRange:
 
 def force_ranges_of(cases: Sequence[CaseResult]) -> tuple[ForceRange, ...]:
     """The forces among the cases, in the order of the deck."""
-    found: dict[str, dict[str, CaseResult]] = {}
+    found: dict[str, ForceRange] = {}
     for case in cases:
-        question = case.load_case.question
-        if isinstance(question, Force):
-            found.setdefault(question.series, {})[question.objective.end] = case
-    return tuple(ForceRange(name, ends) for name, ends in found.items())
+        if isinstance(question := case.load_case.question, Force):
+            own = found.setdefault(question.series, ForceRange(question.series, question, {}))
+            own.ends[question.objective.end] = case
+    return tuple(found.values())
 
 
 def other_end(cases: Sequence[CaseResult], case: CaseResult) -> CaseResult | None:

@@ -11,7 +11,7 @@ from mbla.arrays import FloatArray
 from mbla.errors import UsageError
 from mbla.model.model import LoadCase, Model
 from mbla.model.solids.blocks import Blocks
-from mbla.questions.travel import TravelPosition
+from mbla.questions.travel_position import TravelPosition
 from mbla.results.outcome import result_of
 from mbla.results.results import CaseResult, Results
 from mbla.solution.solution import Status
@@ -39,8 +39,7 @@ class Series:
 
 def position_of(case: CaseResult) -> TravelPosition:
     """Where the load stands in a case of a series."""
-    assert case.load_case.travel is not None  # what makes it one of a series
-    return case.load_case.travel
+    return case.load_case.question.place
 
 
 def factor_of(case: CaseResult) -> float:
@@ -93,8 +92,8 @@ def series_of(cases: Sequence[CaseResult]) -> tuple[Series, ...]:
     """All series among the cases, in the order of the deck."""
     members: dict[str, list[CaseResult]] = {}
     for case in cases:
-        if case.load_case.travel is not None:
-            members.setdefault(case.load_case.travel.series, []).append(case)
+        if position_of(case).count:
+            members.setdefault(position_of(case).series, []).append(case)
     return tuple(Series(name, tuple(own), _worst(own)) for name, own in members.items())
 
 
@@ -134,17 +133,15 @@ ROUNDING = 1e-12
 """share of the load of the axles on a block below which the rest of its load counts as none"""
 
 
-def without_vehicle(blocks: Blocks, loads: FloatArray, travel: TravelPosition | None) -> FloatArray:
+def without_vehicle(blocks: Blocks, loads: FloatArray, travel: TravelPosition) -> FloatArray:
     """Loads on blocks about their centroids less those of the axles that act, (n_blocks, 6) N and N m.
 
     Axles that are shared between blocks stay: they act as what lands of them.
     """
-    if travel is None or travel.spread:
-        return loads
-    acting = travel.acting
-    forces, under = travel.forces[acting], travel.blocks[acting]
+    own = travel.apart
+    forces, under = travel.forces[own], travel.blocks[own]
     of_axles, sizes = np.zeros_like(loads), np.zeros_like(loads)
-    wrenches = np.hstack([forces, np.cross(travel.points[acting] - blocks.centroids[under], forces)])
+    wrenches = np.hstack([forces, np.cross(travel.points[own] - blocks.centroids[under], forces)])
     np.add.at(of_axles, under, wrenches)
     np.add.at(sizes, under, np.abs(wrenches))
     rest = loads - of_axles

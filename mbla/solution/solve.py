@@ -85,7 +85,7 @@ def _of_interfaces(program: CaseProgram, settings: SolverSettings, solution: Sol
 
 def _with_torsion(program: CaseProgram, settings: SolverSettings) -> Interfaces:
     """Interfaces whose torsion a second path limits, so that its load factor stands beside the answer."""
-    turned = program.load_case.tilt is not None and not program.load_case.tilt.tangent  # solved for many angles
+    turned = program.load_case.question.by_steps  # solved for many angles
     spatial = any(part.components == 3 for part in program.reduced.parts)
     model, contacts = program.bodies.model, program.bodies.contacts
     if turned or not spatial or not settings.by_torsion:

@@ -22,6 +22,7 @@ from tests.analytic.planar import (
     rectangles_in_contact,
     wall,
 )
+from tests.asked import settlement_of
 from tests.line import cases_of
 
 EXACT = 1e-7
@@ -49,8 +50,7 @@ def ends_in(cases: Sequence[CaseResult]) -> dict[str, tuple[float, float]]:
             assert case.checks.verified, case.checks.failures
             if case.status is Status.SOLVED:
                 low, high = answer_bounds(case)
-                settlement = case.load_case.settlement
-                assert settlement is not None
+                settlement = settlement_of(case.load_case)
                 room = 1e-9 * settlement.unit
                 assert low - room <= end_value(case) <= high + room
         found[force.name] = end_value(force.ends["least"]), end_value(force.ends["greatest"])
@@ -273,8 +273,7 @@ def test_the_state_of_collapse_lies_between_the_ends_which_meet_there_by_normali
     mechanics = quake.solution.mechanics
     assert mechanics is not None
     _, (_, *pair) = cases_of(PUSHED, *settings, f"load_cases.thrust.at={mechanics.load_factor * (1 - 1e-9)!r}")
-    settlement = pair[0].load_case.settlement
-    assert settlement is not None
+    settlement = settlement_of(pair[0].load_case)
     own = measured_force(assembly.of(pair[0].load_case), mechanics.contact_forces)
     least, greatest = ends_in(pair)["thrust"]
     room = 1e-5 * settlement.unit

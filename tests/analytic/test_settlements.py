@@ -22,6 +22,7 @@ from mbla.results.outcome import answer_of
 from mbla.results.results import CaseResult, Results
 from mbla.run import RunOptions, run
 from mbla.solution.solution import Standing, Status
+from tests.asked import settlement_of
 from tests.decks.folder import BENCHMARKS
 from tests.line import HEAD, case_of
 
@@ -132,8 +133,7 @@ def test_at_rest_the_least_forces_spread_over_every_point(tmp_path: Path, deck: 
     (case,) = run(path, RunOptions(folder=tmp_path / "out", overrides=("output.vtu=false",), force=True)).cases
     weight = WEIGHT * 4 * 0.5 * 0.4
     assert abs(reaction(case)) < EXACT * weight
-    assert case.load_case.settlement is not None
-    assert case.load_case.settlement.reference == pytest.approx(weight / 3, rel=EXACT)
+    assert settlement_of(case.load_case).reference == pytest.approx(weight / 3, rel=EXACT)
 
 
 @pytest.mark.parametrize("friction", [0.05, 0.5])
@@ -174,8 +174,7 @@ def test_the_least_thrust_is_that_of_three_hinges(tmp_path: Path) -> None:
     exact = max(moment / (2.6 - inner[j, 1]) for j, moment in enumerate(moments, start=1))
     case = solved(tmp_path, "spreading_arch", cases=("spreads",)).cases[0]
     assert reaction(case) == pytest.approx(exact, rel=EXACT)
-    settlement = case.load_case.settlement
-    assert settlement is not None
+    settlement = settlement_of(case.load_case)
     # the kinematic bound of the load factor is the lower bound of the reaction
     assert settlement.reaction(case.checks.kinematic_bound) <= exact * (1 + 1e-9)
     assert settlement.reaction(case.checks.static_bound) >= exact * (1 - 1e-9)
@@ -183,7 +182,7 @@ def test_the_least_thrust_is_that_of_three_hinges(tmp_path: Path) -> None:
 
 def test_the_mechanism_has_unit_power_and_moves_the_support_along(tmp_path: Path) -> None:
     case = solved(tmp_path, "spreading_arch", cases=("spreads",)).cases[0]
-    settlement, mechanics = case.load_case.settlement, case.solution.mechanics
+    settlement, mechanics = settlement_of(case.load_case), case.solution.mechanics
     assert settlement is not None
     assert mechanics is not None
     motion = mechanics.mechanism[settlement.blocks]

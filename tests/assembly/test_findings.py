@@ -9,6 +9,7 @@ from mbla.arrays import FloatArray
 from mbla.assembly.rigid_bodies import guides_at_odds
 from mbla.errors import DeckError
 from mbla.model.guides import Guides
+from tests.asked import settlement_of
 from tests.line import HEAD, case_of, factor_of
 
 TOWER = (
@@ -89,8 +90,7 @@ def test_a_body_on_a_support_that_gives_way() -> None:
     text = tower("[b,c]", ", {blocks: a}", "{settlement: {on: a, direction: [0, 0, -1]}}")
     _, case = case_of(text.replace("{ground: {z: 0}}, ", ""))
     assert case.solution.mechanics is not None, case.solution.reason
-    settlement = case.load_case.settlement
-    assert settlement is not None
+    settlement = settlement_of(case.load_case)
     reaction = settlement.reaction(case.solution.mechanics.load_factor)
     assert reaction == pytest.approx(2 * 2000 * 9.81, rel=1e-6)
 

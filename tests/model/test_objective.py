@@ -9,6 +9,7 @@ import pytest
 from mbla.deck import read_deck
 from mbla.errors import DeckError
 from mbla.model import Model, build_model
+from tests.asked import settlement_of
 
 DECK = """mbla: 1
 materials: {stone: {density: 2000}}
@@ -74,6 +75,5 @@ def test_guides_that_take_nothing_of_it_are_not(tmp_path: Path, force: str, guid
     ],
 )
 def test_ties_across_a_cut_are_named_for_they_do_not_count(tmp_path: Path, sides: str, words: str) -> None:
-    settlement = asked(tmp_path, f"{sides}, direction: [0, 0, 1]").load_cases[0].settlement
-    assert settlement is not None
+    settlement = settlement_of(asked(tmp_path, f"{sides}, direction: [0, 0, 1]").load_cases[0])
     assert settlement.words == f"force {words} along (0, 0, 1)"

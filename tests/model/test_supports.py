@@ -11,6 +11,7 @@ from mbla.deck import read_deck
 from mbla.errors import DeckError
 from mbla.model import Model, build_model
 from mbla.model.settlement import with_reference
+from tests.asked import settlement_of
 from tests.model.shapes import deck
 
 BLOCK = "box: {group: block, material: stone, min: [0, 0, 0], max: [1, 1, 2]}"
@@ -178,8 +179,7 @@ def test_a_settlement_frees_its_blocks_in_its_case_alone(tmp_path: Path) -> None
 
 def test_the_loads_of_a_settlement_take_its_reaction(tmp_path: Path) -> None:
     case = model_of(tmp_path, case="settlement: {on: base, direction: [0, 0, -1]}").load_cases[0]
-    settlement = case.settlement
-    assert settlement is not None
+    settlement = settlement_of(case)
     weight = 6 * 2000 * 9.81
     assert settlement.unit == pytest.approx(weight, rel=1e-12)
     assert np.isnan(settlement.reference)
@@ -187,17 +187,15 @@ def test_the_loads_of_a_settlement_take_its_reaction(tmp_path: Path) -> None:
     np.testing.assert_allclose(posed.dead_load[:2, 2], 150.0)  # of two blocks, against the motion; own weight left out
     np.testing.assert_allclose(posed.live_load[:2, 2], -weight / 2)
     np.testing.assert_array_equal(posed.dead_load[2:], case.dead_load[2:])
-    assert posed.settlement is not None
-    assert posed.settlement.reaction(0.0) == 300.0
-    assert posed.settlement.reaction(1.0) == pytest.approx(300.0 - weight, rel=1e-12)
+    assert settlement_of(posed).reaction(0.0) == 300.0
+    assert settlement_of(posed).reaction(1.0) == pytest.approx(300.0 - weight, rel=1e-12)
 
 
 def test_a_turning_support_counts_in_moments(tmp_path: Path) -> None:
     case = model_of(
         tmp_path, case="settlement: {on: {group: base, index: 1}, turn: {axis: [0, 2, 0], about: [2, 0, 0]}}"
     ).load_cases[0]
-    settlement = case.settlement
-    assert settlement is not None
+    settlement = settlement_of(case)
     assert settlement.turns
     distances = [np.hypot(1.5, 1.0), np.hypot(0.5, 2.0)]
     assert settlement.unit == pytest.approx(6 * 2000 * 9.81 * np.mean(distances), rel=1e-12)

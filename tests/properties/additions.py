@@ -15,6 +15,8 @@ from mbla.model.model import LoadCase, Model
 from mbla.model.solids.blocks import BlockLabels, Blocks, join_labels
 from mbla.model.solids.build import Labels, build_blocks
 from mbla.model.solids.polyhedra import Polyhedra, join_polyhedra, polyhedra_from_lists, take_polyhedra
+from mbla.questions.force import Force
+from tests.asked import with_loads
 from tests.properties.cells import below, indexed
 from tests.properties.scenes import Scene, with_section
 
@@ -24,8 +26,7 @@ def movable(model: Model) -> IntArray:
     bound = model.fixed.copy()
     bound[model.guides.blocks] = True
     for case in model.load_cases:
-        if case.settlement is not None:
-            bound[case.settlement.blocks] = True
+        bound[case.question.giving_way] = True
     free = np.flatnonzero(~bound)
     order: IntArray = free[np.argsort(-model.blocks.volumes[free], kind="stable")]
     return order
@@ -101,19 +102,17 @@ def _with_blocks(model: Model, blocks: Blocks, count: int, fixed: tuple[bool, ..
 
     cases = []
     for case in model.load_cases:
-        tilt = case.tilt
-        if tilt is not None:
-            tilt = replace(tilt, fixed=longer(tilt.fixed), turning=longer(tilt.turning), across=longer(tilt.across))
-        cases.append(replace(case, dead_load=longer(case.dead_load), live_load=longer(case.live_load), tilt=tilt))
+        cases.append(with_loads(case, longer))
     return replace(model, blocks=blocks, fixed=np.append(model.fixed, fixed), load_cases=tuple(cases))
 
 
 def _on_side_of(block: int, new: int, case: LoadCase) -> LoadCase:
     """The load case with a new block on the same side of the cut as another one; grounds follow the blocks."""
-    if case.objective is None:
+    if not isinstance(case.question, Force):
         return case
-    sides = np.insert(case.objective.sides, new, case.objective.sides[block])
-    return replace(case, objective=replace(case.objective, sides=sides))
+    objective = case.question.objective
+    sides = np.insert(objective.sides, new, objective.sides[block])
+    return replace(case, question=replace(case.question, objective=replace(objective, sides=sides)))
 
 
 def _with_loads_moved(case: LoadCase, block: int, arm: FloatArray) -> LoadCase:
@@ -124,7 +123,4 @@ def _with_loads_moved(case: LoadCase, block: int, arm: FloatArray) -> LoadCase:
         loads[block, 3:] += np.cross(arm, loads[block, :3])
         return loads
 
-    tilt = case.tilt
-    if tilt is not None:
-        tilt = replace(tilt, fixed=moved(tilt.fixed), turning=moved(tilt.turning), across=moved(tilt.across))
-    return replace(case, dead_load=moved(case.dead_load), live_load=moved(case.live_load), tilt=tilt)
+    return with_loads(case, moved)

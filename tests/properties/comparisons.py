@@ -165,7 +165,7 @@ def _vectors(scene: Scene, solved: Solved, other: Solved, number: int, how: Tran
     if how.turn is None or len(solved.model.guides) or solved.model.mirrors:
         return ""
     case, image = solved.cases[number], other.cases[number]
-    if case.load_case.settlement is not None or case.solution.mechanics is None or image.solution.mechanics is None:
+    if not case.load_case.question.multiplies or case.solution.mechanics is None or image.solution.mechanics is None:
         return ""
     sums = []
     for each, one in ((solved, case), (other, image)):

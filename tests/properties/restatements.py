@@ -91,7 +91,7 @@ def reverse_interfaces(scene: Scene, _: Solved) -> Scene:
 
 def unloaded_by_scale(scene: Scene) -> bool:
     """A settlement or a tilting table: there is no live load to be scaled."""
-    return any(case.settlement is not None or case.tilt is not None for case in scene.model.load_cases)
+    return any(case.question.tilts or not case.question.multiplies for case in scene.model.load_cases)
 
 
 def live_load_times(scale: float) -> Callable[[Scene, Solved], Scene | None]:

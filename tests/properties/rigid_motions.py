@@ -13,6 +13,11 @@ from mbla.model.solids.blocks import BlockLabels, Blocks
 from mbla.model.solids.build import Labels, build_blocks
 from mbla.model.solids.polyhedra import Polyhedra, take_polyhedra, turn_faces
 from mbla.model.ties.ties import OUTSIDE
+from mbla.questions.angle import Angle
+from mbla.questions.force import Force
+from mbla.questions.reaction import Reaction
+from mbla.questions.travel import Travel
+from tests.asked import with_loads
 from tests.properties.scenes import Scene, with_section
 
 
@@ -76,15 +81,15 @@ def _wrenches(values: FloatArray, matrix: FloatArray, side: float) -> FloatArray
 
 def _moved_case(case: LoadCase, matrix: FloatArray, side: float) -> LoadCase:
     dead, live = (_wrenches(loads, matrix, side) for loads in (case.dead_load, case.live_load))
-    settlement, objective, tilt = case.settlement, case.objective, case.tilt
-    if settlement is not None:
-        settlement = replace(settlement, motions=_wrenches(settlement.motions, matrix, side))
-    if objective is not None:
-        objective = replace(objective, direction=matrix @ objective.direction)
-    if tilt is not None:
-        fixed, turning, across = (_wrenches(loads, matrix, side) for loads in (tilt.fixed, tilt.turning, tilt.across))
-        tilt = replace(tilt, axis=side * (matrix @ tilt.axis), fixed=fixed, turning=turning, across=across)
-    return replace(case, dead_load=dead, live_load=live, settlement=settlement, objective=objective, tilt=tilt)
+    match question := case.question:
+        case Angle(tilt):
+            turned = tilt.with_loads(lambda loads: _wrenches(loads, matrix, side))
+            question = Angle(replace(turned, axis=side * (matrix @ tilt.axis)))
+        case Force(_, objective):
+            question = replace(question, objective=replace(objective, direction=matrix @ objective.direction))
+        case Reaction(settlement):
+            question = Reaction(replace(settlement, motions=_wrenches(settlement.motions, matrix, side)))
+    return replace(case, dead_load=dead, live_load=live, question=question)
 
 
 def _moved_overrides(scene: Scene, matrix: FloatArray, shift: FloatArray) -> Scene:
@@ -119,20 +124,16 @@ def renumbered(scene: Scene, order: IntArray) -> Scene:
     new[order] = np.arange(len(order))
     cases = []
     for case in model.load_cases:
-        settlement, objective, tilt, travel = case.settlement, case.objective, case.tilt, case.travel
-        if objective is not None:
-            of_blocks, of_grounds = np.split(objective.sides, [len(order)])
-            objective = replace(objective, sides=np.append(of_blocks[order], of_grounds))
-        if settlement is not None:
-            settlement = replace(settlement, blocks=new[settlement.blocks])
-        if tilt is not None:
-            fixed, turning, across = tilt.fixed[order], tilt.turning[order], tilt.across[order]
-            tilt = replace(tilt, fixed=fixed, turning=turning, across=across)
-        if travel is not None:
-            travel = replace(travel, blocks=np.where(travel.blocks < 0, -1, new[travel.blocks]))
+        question = case.question.on_bodies(new, lambda loads: loads[order], 0.0)
+        match question:
+            case Force(_, objective):
+                of_blocks, of_grounds = np.split(objective.sides, [len(order)])
+                sides = np.append(of_blocks[order], of_grounds)
+                question = replace(question, objective=replace(objective, sides=sides))
+            case Travel(place):
+                question = Travel(replace(place, blocks=np.where(place.blocks < 0, -1, new[place.blocks])))
         dead, live = case.dead_load[order], case.live_load[order]
-        case = replace(case, dead_load=dead, live_load=live, settlement=settlement, objective=objective)
-        cases.append(replace(case, tilt=tilt, travel=travel))
+        cases.append(replace(case, dead_load=dead, live_load=live, question=question))
     grounds = tuple(
         ground if ground.blocks is None else replace(ground, blocks=np.sort(new[ground.blocks]))
         for ground in model.grounds
@@ -153,14 +154,12 @@ def with_forces(model: Model, times: float) -> Model:
     """Loads and strengths times a factor."""
     cases = []
     for case in model.load_cases:
-        settlement, tilt = case.settlement, case.tilt
-        if settlement is not None:
-            settlement = replace(settlement, unit=times * settlement.unit, reference=times * settlement.reference)
-        if tilt is not None:
-            fixed, turning, across = (times * loads for loads in (tilt.fixed, tilt.turning, tilt.across))
-            tilt = replace(tilt, fixed=fixed, turning=turning, across=across)
-        dead, live = times * case.dead_load, times * case.live_load
-        cases.append(replace(case, dead_load=dead, live_load=live, settlement=settlement, tilt=tilt))
+        case = with_loads(case, lambda loads: times * loads)
+        if isinstance(question := case.question, Reaction):
+            own = question.settlement
+            settlement = replace(own, unit=times * own.unit, reference=times * own.reference)
+            case = replace(case, question=replace(question, settlement=settlement))
+        cases.append(case)
     joints = {
         name: replace(
             joint,

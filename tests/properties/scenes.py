@@ -17,6 +17,8 @@ from mbla.assembly import Assembly, build_assembly
 from mbla.contacts import Contacts
 from mbla.deck import Deck, read_deck
 from mbla.model import Model, build_model
+from mbla.questions.angle import Angle
+from mbla.questions.reaction import Reaction
 from mbla.results.provenance import with_loads_found
 from mbla.results.results import CaseResult
 from mbla.results.status_file import StatusFile
@@ -127,10 +129,11 @@ def value_of(case: CaseResult) -> float:
 
 def _shown(case: CaseResult, factor: float) -> float:
     load_case = case.load_case
-    if load_case.settlement is not None:
-        return -load_case.settlement.reaction(factor) / load_case.settlement.unit
-    if load_case.tilt is not None:
-        return float(np.tan(np.deg2rad(load_case.tilt.angle)))
+    match load_case.question:
+        case Reaction(settlement):
+            return -settlement.reaction(factor) / settlement.unit
+        case Angle(tilt):
+            return float(np.tan(np.deg2rad(tilt.angle)))
     return factor
 
 
@@ -139,7 +142,7 @@ def bounds_of(case: CaseResult) -> tuple[float, float]:
 
     The angle is known as well as the load factor of 1 that its last program has: the bounds of that lie around 1.
     """
-    if case.load_case.tilt is not None and not case.load_case.tilt.tangent:
+    if case.load_case.question.by_steps:
         return value_of(case) * case.checks.static_bound, value_of(case) * case.checks.kinematic_bound
     lower, upper = (_shown(case, bound) for bound in (case.checks.static_bound, case.checks.kinematic_bound))
     return lower, upper

@@ -21,7 +21,7 @@ def scaled(scene: Scene, length: float, force: float) -> Scene | None:
     """
     model = scene.model
     cases = model.load_cases
-    if model.interfaces is not None or any(case.settlement or case.tilt or case.objective for case in cases):
+    if model.interfaces is not None or any(case.question.tilts or not case.question.multiplies for case in cases):
         return None
     model = with_forces(model, force)
     blocks, polyhedra = model.blocks, polyhedra_of(model.blocks)

@@ -21,7 +21,8 @@ from mbla.questions.load_factor import LoadFactor
 from mbla.questions.question import ZERO, Question
 from mbla.questions.reaction import Reaction, Settlement
 from mbla.questions.tilt import Tilt
-from mbla.questions.travel import Travel, TravelPosition
+from mbla.questions.travel import Travel
+from mbla.questions.travel_position import TravelPosition
 from mbla.results.quantities.registry import CASE_COLUMNS
 
 DECKS = Path(__file__).parents[2] / "decks"

@@ -22,10 +22,12 @@ from mbla.model.model import Ground, Joint, LoadCase, Model, Pushing
 from mbla.model.solids.blocks import Blocks, labels_of
 from mbla.model.ties.ties import Ties
 from mbla.program.reductions import ProgramSize, ReductionOutcome, ReductionStep
-from mbla.questions.force import Objective
-from mbla.questions.reaction import Settlement
+from mbla.questions.angle import Angle
+from mbla.questions.force import Force, Objective
+from mbla.questions.reaction import Reaction, Settlement
 from mbla.questions.tilt import Tilt
-from mbla.questions.travel import TravelPosition
+from mbla.questions.travel import Travel
+from mbla.questions.travel_position import TravelPosition
 from mbla.results.assessment import Assessment, Figure
 from mbla.results.results import CaseResult, DeckRecord, Results
 from mbla.solution.further.further import Further
@@ -89,6 +91,8 @@ load_cases:
 """of the tower: it gives its blocks, interfaces and contact points"""
 ROD = "ties: [{name: rod, through: [[0, 0.5, 1.5], [-1, 0.5, 1.5]], on: [tower, ground], capacity: 4}]\n"
 """section of the deck of the full results, for their tie"""
+NOT_RUN = "".join(f"  {name}: {{live: [{{acceleration: [1, 0, 0]}}]}}\n" for name in ("table", "thrust"))
+"""more load cases in it"""
 ASKED = "push_x: {assessment: {spectra: {SLV: {table: [[0.0, 0.2], [2.0, 0.1]]}}}, "
 """beginning of their load case in it, for their assessment"""
 
@@ -295,7 +299,7 @@ def full_results() -> Results:
     model = full_model(results.model)
     full = replace(case, load_case=model.load_cases[0], solution=full_solution(case.solution), checks=checks)
     files = (("stones.obj", b"v 0 0 0\n"), ("meshes/none.bin", b""), ("x.csv", b"\xff\x00"))
-    sources = (("tower.yaml", DECK.replace("push_x: {", ASKED) + ROD), *results.deck.sources[1:])
+    sources = (("tower.yaml", DECK.replace("push_x: {", ASKED) + NOT_RUN + ROD), *results.deck.sources[1:])
     deck = replace(results.deck, sources=sources, files=files)
     assembly = Assembly(model, contacts)
     cases = (replace(full, assessment=VERDICT), results.cases[1])
@@ -462,7 +466,7 @@ TIE = Ties(
 
 
 def full_model(model: Model) -> Model:
-    """The tower with a settlement in its first load case, a tilt, a path and an objective in the last, and a guide."""
+    """The tower with a load case for each question, and a guide."""
     arrays, n_bodies = np.arange(54.0).reshape(3, 3, 6), len(model.blocks) + len(model.grounds)
     pushover = Pushing(
         0.02,
@@ -478,25 +482,24 @@ def full_model(model: Model) -> Model:
         live_following=np.arange(18.0, 36.0).reshape(3, 6),
         live_following_levers=np.arange(27.0).reshape(3, 9),
     )
-    not_run = replace(
-        model.load_cases[2],
-        pushover=pushover,
-        travel=replace(standing_at(2, 12, np.array([1.0, 2.0, 3.0]), 2.5), spread=True),
-        tilt=Tilt(np.array([0.0, 1.0, 0.0]), arrays[0], arrays[1], arrays[2], 12.5, False, np.inf),
-        settlement=Settlement(np.zeros(0, dtype=np.int64), np.zeros((0, 6)), False, "force", 3.0, 20.0, -1.0),
-        objective=Objective(
-            "train", "greatest", 0.5, np.arange(n_bodies) % 3 - 1, np.array([0]), np.array([0.0, 0.6, 0.8])
-        ),
+    travel = Travel(replace(standing_at(2, 12, np.array([1.0, 2.0, 3.0]), 2.5), spread=True))
+    angle = Angle(Tilt(np.array([0.0, 1.0, 0.0]), arrays[0], arrays[1], arrays[2], 12.5, False, np.inf))
+    force = Force(
+        Settlement(np.zeros(0, dtype=np.int64), np.zeros((0, 6)), False, "force", 3.0, 20.0, -1.0),
+        Objective("thrust", "greatest", 0.5, np.arange(n_bodies) % 3 - 1, np.array([0]), np.array([0.0, 0.6, 0.8])),
     )
+    not_run = model.load_cases[2]
     sinking = np.array([[0.0, 0, -1, 0, 0, 0]])
     settlement = Settlement(np.array([0]), sinking, False, "settlement of 1 block", 30.0, 20.0)
     ways = np.eye(6)[None] * np.array([1.0, 1, 1, 1, 1, 0])
     return replace(
         model,
         load_cases=(
-            replace(model.load_cases[0], settlement=settlement, assessment=ASSESSED),
+            replace(model.load_cases[0], question=Reaction(settlement), assessment=ASSESSED),
             model.load_cases[1],
-            not_run,
+            replace(not_run, pushover=pushover, question=travel),
+            replace(not_run, name="table", question=angle),
+            replace(not_run, name="thrust", question=force),
         ),
         guides=Guides(np.array([2]), np.array([0]), ways, ("1 block held in rz",)),
         fill=CarriedFill(0.5 * model.blocks.added_masses, model.blocks.added_mass_points, ("soil: 1 m deep",)),

@@ -8,7 +8,9 @@ import numpy as np
 import pytest
 
 from mbla.errors import Message
+from mbla.questions.angle import Angle
 from mbla.questions.tilt import Tilt
+from mbla.questions.travel import Travel
 from mbla.results.findings import found_notices, magnitude_notices
 from mbla.results.listing.verdict_words import verdict
 from mbla.results.outcome import notices_of
@@ -71,7 +73,7 @@ def test_what_is_claimed_but_not_verified() -> None:
 def test_harmless_positions_of_a_travelling_load_are_no_warnings() -> None:
     results = tower_results()
     position = standing_at(1, 2, results.model.blocks.centroids[1], 0.0)
-    cases = tuple(replace(push(), load_case=replace(push().load_case, travel=position)) for _ in range(2))
+    cases = tuple(replace(push(), load_case=replace(push().load_case, question=Travel(position))) for _ in range(2))
     locked = replace(cases[0], status=Status.UNBOUNDED)
 
     def severities(*chosen: CaseResult) -> list[str]:
@@ -147,7 +149,7 @@ def test_an_angle_that_rounding_could_have_made_is_none() -> None:
     results = slender(0.5, 1e-10, contact_model="concave")
     (case,) = results.cases
     load = case.load_case.live_load
-    tilted = replace(case.load_case, tilt=Tilt(np.array([0.0, 1.0, 0.0]), load, load, load))
+    tilted = replace(case.load_case, question=Angle(Tilt(np.array([0.0, 1.0, 0.0]), load, load, load)))
     assert verdict(results.model, replace(case, load_case=tilted)) == "collapses at 0 degrees of tilt, verified"
 
 

@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from mbla.deck import read_deck
+from mbla.questions.force import Objective
 from mbla.results.exit_status import differences, exit_code
 from mbla.results.force_range import end_value, force_ranges_of
 from mbla.results.hdf5.result_file import read_results_hdf5
@@ -122,7 +123,7 @@ def test_what_a_file_says_is_found_again(solved: tuple[Results, Path]) -> None:
     again, disagreements = verify_file(path)
     assert disagreements == ()
     assert [case.status for case in again.cases] == [case.status for case in solved[0].cases]
-    stored = read_results_hdf5(path).case("left@least").load_case.objective
+    stored = read_results_hdf5(path).case("left@least").load_case.question.record(Objective)
     assert stored is not None
     assert (stored.series, stored.end, stored.sides.tolist()) == ("left", "least", [-1, 1, 1, 1, 0])
 

@@ -50,7 +50,7 @@ def free_solids(results: Results, name: str) -> int:
     """How many rigid bodies can move in a load case, a support that gives way not among them."""
     load_case = results.case(name).load_case
     fixed = results.assembly.glued(load_case).model.fixed
-    return int(np.sum(~fixed)) - (load_case.settlement is not None)
+    return int(np.sum(~fixed)) - (not load_case.question.multiplies)
 
 
 STRUCTURES = {

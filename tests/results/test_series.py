@@ -11,6 +11,7 @@ from typing import Any
 import pytest
 
 from mbla.errors import UsageError
+from mbla.questions.travel import Travel
 from mbla.results.exit_status import differences
 from mbla.results.listing.answers import standing_words
 from mbla.results.listing.listing import listing
@@ -105,7 +106,8 @@ def train(statuses: Sequence[Status], factors: Sequence[float]) -> tuple[CaseRes
     assert case.solution.mechanics is not None
     cases = []
     for i, (status, factor) in enumerate(zip(statuses, factors, strict=True), start=1):
-        load_case = replace(case.load_case, name=f"train@{i}", travel=standing_at(i, len(statuses), [i, 0, 0], i))
+        travel = Travel(standing_at(i, len(statuses), [i, 0, 0], i))
+        load_case = replace(case.load_case, name=f"train@{i}", question=travel)
         mechanics = replace(case.solution.mechanics, load_factor=factor)
         solution = replace(case.solution, mechanics=mechanics, associative=mechanics)
         cases.append(replace(case, load_case=load_case, status=status, solution=solution))

@@ -12,6 +12,7 @@ from mbla.results.results import CaseResult
 from mbla.run import run
 from mbla.solution.solution import Status
 from mbla.verify import verify_file
+from tests.asked import settlement_of
 from tests.line import HEAD, case_of, cases_of
 
 WEIGHT = 2000 * 2 * 0.5 * 0.3 * 9.81
@@ -35,10 +36,9 @@ def settling(left: str, right: str) -> CaseResult:
 
 
 def reaction_of(case: CaseResult) -> float:
-    assert case.load_case.settlement is not None
     assert case.solution.mechanics is not None
     assert case.status is Status.SOLVED
-    return case.load_case.settlement.reaction(case.solution.mechanics.load_factor)
+    return settlement_of(case.load_case).reaction(case.solution.mechanics.load_factor)
 
 
 def test_a_beam_on_two_piers_that_sink_by_different_amounts() -> None:
@@ -91,7 +91,7 @@ def test_a_result_file_has_them_and_is_verified(tmp_path: Path) -> None:
     results = run(path, RunOptions(folder=tmp_path / "out"))
     back, differences = verify_file(tmp_path / "out" / "beam.h5")
     assert not differences
-    own, settlement = results.cases[0].load_case.settlement, back.cases[0].load_case.settlement
+    own, settlement = settlement_of(results.cases[0].load_case), settlement_of(back.cases[0].load_case)
     assert own is not None
     assert settlement is not None
     assert settlement.motions[:, 2] == pytest.approx([-0.5, -1.0])

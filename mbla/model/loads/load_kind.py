@@ -23,8 +23,8 @@ from mbla.model.fill import FillBody
 from mbla.model.model import Ground
 from mbla.model.selectors import BlockSelection
 from mbla.model.solids.blocks import NO_MASSES, Blocks, PointMasses
-from mbla.questions.tilt import Tilt
-from mbla.questions.travel import TravelPosition
+from mbla.questions import Question
+from mbla.questions.load_factor import LOAD_FACTOR
 
 
 @dataclass(frozen=True)
@@ -125,11 +125,10 @@ class LoadKind(LoadKey):
 
 @dataclass(frozen=True)
 class Variant:
-    """A load case that a load makes of one: what acts besides its other loads, and its position or how it turns."""
+    """A load case that a load makes of one: what acts besides its other loads, and what is asked of it."""
 
     load: AppliedLoad | None = None
-    travel: TravelPosition | None = None
-    tilt: Tilt | None = None
+    question: Question = LOAD_FACTOR
 
 
 Variants: TypeAlias = Callable[[str, Entry, Sequence[Entry], FloatArray, LoadSite], list[Variant]]

@@ -26,6 +26,7 @@ from mbla.model.loads.load_kind import CaseKind, Entry, LoadSite, Variant
 from mbla.model.loads.mass_forces import mass_forces
 from mbla.model.solids.plane import unit
 from mbla.model.wording import vector
+from mbla.questions.angle import Angle
 from mbla.questions.tilt import Tilt as TiltedLoads
 
 ALONG = 1e-9
@@ -60,7 +61,7 @@ def tilt_variants(
         message = f"{name}: only gravity turns; the other dead loads keep their direction in the structure"
         site.warn("tilt-turns-gravity-only", message)
     applied = AppliedLoad(everywhere, across, f"tilt about {vector(tilt.axis)}", on_masses=True)
-    return [Variant(applied, tilt=TiltedLoads(axis, dead_load - turning, turning, across[:, :6]))]
+    return [Variant(applied, Angle(TiltedLoads(axis, dead_load - turning, turning, across[:, :6])))]
 
 
 register_load(

@@ -31,7 +31,8 @@ from mbla.model.loads.load_kind import CaseKind, Entry, LoadSite, Variant
 from mbla.model.loads.vehicle import Axles, axles_in_row, axles_of, remark_upwards
 from mbla.model.selectors import select_blocks
 from mbla.model.wording import counted, vector
-from mbla.questions.travel import TravelPosition
+from mbla.questions.travel import Travel as TravelQuestion
+from mbla.questions.travel_position import TravelPosition
 
 ON_PATH = 1e-9
 """share of the length of a path within which a force at its end is on it: distances are sums with rounding"""
@@ -112,7 +113,7 @@ def travel_variants(
         spread = footprint.through is not None or axles.width > 0.0
         position = TravelPosition(name, number, len(vehicle), points, distances, forces, under, spread)
         applied = replace(_applied(position, landed, footprint), follows=entry.load.follows)
-        positions.append(Variant(applied, travel=position))
+        positions.append(Variant(applied, TravelQuestion(position)))
     _remark_parts(name, axles.forces, [landed for landed, _ in found], footprint)
     return positions
 
@@ -225,11 +226,6 @@ def _remark_parts(name: str, forces: FloatArray, positions: Sequence[Landed], fo
         worst = int(np.argmax(shares))
         words = f"{name}: at position {worst + 1} of {len(shares)}, where it is most"
         remark(words, forces[acting[worst]], there[worst])
-
-
-def case_name(position: TravelPosition) -> str:
-    """Name of the load case at a position: ``train@07``."""
-    return f"{position.series}@{position.number:0{len(str(position.count))}d}"
 
 
 def vehicle_on_path(travel: Travel, behind: FloatArray) -> list[tuple[FloatArray, FloatArray, BoolArray]]:

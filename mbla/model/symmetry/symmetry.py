@@ -33,7 +33,7 @@ from mbla.model.symmetry.refusals import cannot_mirror, loads_across
 from mbla.model.ties.ties import OUTSIDE, Ties, joined_ties
 from mbla.model.transform import moved
 from mbla.model.wording import counted
-from mbla.questions.reaction import Settlement
+from mbla.questions.reaction import Reaction, Settlement
 
 
 def with_images(deck: Deck, model: Model) -> Model:
@@ -228,9 +228,10 @@ def _load_case(case: LoadCase, both: _OnBoth) -> LoadCase:
         live=tuple(map(both.applied, case.live)),
         pushover=None if case.pushover is None else both.pushing(case.pushover, case),
     )
-    if case.settlement is None:
-        return mirrored
-    return with_reference(replace(mirrored, settlement=_settlement(case.settlement, both.mirror)), np.nan)
+    if isinstance(case.question, Reaction):
+        settling = Reaction(_settlement(case.question.settlement, both.mirror))
+        return with_reference(replace(mirrored, question=settling), np.nan)
+    return mirrored
 
 
 def _settlement(settlement: Settlement, mirror: MirrorPlane) -> Settlement:

@@ -15,7 +15,11 @@ from mbla.errors import DeckError, FileError, Notice
 from mbla.model import build_model
 from mbla.model.model import LoadCase
 from mbla.model.settlement import with_reference
+from mbla.questions.angle import Angle
+from mbla.questions.load_factor import LOAD_FACTOR
+from mbla.questions.reaction import Reaction
 from mbla.questions.tilt import chord
+from mbla.questions.travel import Travel
 from mbla.results.hdf5.case_restore import case_from
 from mbla.results.hdf5.layout import Content
 from mbla.results.provenance import deck_of
@@ -65,17 +69,18 @@ def with_loads_found(assembly: Assembly, get: Content) -> Assembly:
 
 
 def _found(case: LoadCase, get: dict[str, Any]) -> LoadCase:
-    if case.settlement is not None and "settlement/reference" in get:
-        return with_reference(case, get["settlement/reference"])
-    if case.travel is not None and "pushover/step" not in get:
-        return replace(case, pushover=None)
-    tilt, live_load = case.tilt, get.get("live_load")
-    if tilt is None or live_load is None or "tilt/tangent" not in get:
-        return case
-    tilt = replace(tilt, angle=get["tilt/angle"], tangent=bool(get["tilt/tangent"]), upright=get["tilt/upright"])
-    if tilt.tangent or leads_across(tilt, live_load):
-        return replace(case, tilt=tilt)
-    return replace(case, tilt=tilt, live_load=chord(tilt, angle_of_load(tilt, live_load)))
+    match case.question:
+        case Reaction() if "settlement/reference" in get:
+            return with_reference(case, get["settlement/reference"])
+        case Travel() if "pushover/step" not in get:
+            return replace(case, pushover=None)
+        case Angle(tilt) if "tilt/tangent" in get and "live_load" in get:
+            angle, upright, live_load = get["tilt/angle"], get["tilt/upright"], get["live_load"]
+            tilt = replace(tilt, angle=angle, tangent=bool(get["tilt/tangent"]), upright=upright)
+            if not tilt.tangent and not leads_across(tilt, live_load):
+                case = replace(case, live_load=chord(tilt, angle_of_load(tilt, live_load)))
+            return replace(case, question=Angle(tilt))
+    return case
 
 
 def results_from(content: Content, attributes: dict[str, str | int], record: DeckRecord, assembly: Assembly) -> Results:
@@ -117,7 +122,7 @@ def check_carriers(assembly: Assembly, case: CaseResult) -> None:
     standing = None if solution.standing is None else solution.standing.forces
     found = [forces for forces in (standing, solution.lock, solution.level_lock) if forces is not None]
     if found:
-        carriers = assembly.of(replace(case.load_case, objective=None)).contacts.points
+        carriers = assembly.of(replace(case.load_case, question=LOAD_FACTOR)).contacts.points
         if any(len(forces) != len(carriers) for forces in found):
             raise ValueError(f"{case.load_case.name}: forces of another number of contact points and ties")
 

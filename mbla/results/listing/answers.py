@@ -9,8 +9,7 @@ import numpy as np
 
 from mbla.model.model import LoadCase, Model
 from mbla.questions.figures import significant
-from mbla.questions.force import Force
-from mbla.questions.travel import TravelPosition
+from mbla.questions.travel_position import TravelPosition
 from mbla.results.force_range import ForceRange, end_value
 from mbla.results.listing.blocks import GAP, Fact, ListingSection, Paragraph, apart, table_of
 from mbla.results.listing.text import counted, number, vector
@@ -107,10 +106,8 @@ def objective_section(model: Model, found: ForceRange) -> ListingSection:
 
 def range_words(model: Model, found: ForceRange) -> str:
     """``thrust: force of the supports on 1 block along (1, 0, 0), between 8753.85 N and 13297.7 N``."""
-    question, unit = next(iter(found.ends.values())).load_case.question, model.units.force
-    assert isinstance(question, Force)  # what makes it an end
-    at = question.objective.at
-    what = f"{found.name}: {question.settlement.words}" + (f" at load factor {number(at)}" if at else "")
+    unit, at = model.units.force, found.question.objective.at
+    what = f"{found.name}: {found.question.settlement.words}" + (f" at load factor {number(at)}" if at else "")
     if found.status is Status.NO_EQUILIBRIUM:
         return f"{what}: none, the structure does not carry these loads"
     words = []

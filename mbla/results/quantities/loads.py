@@ -6,18 +6,20 @@ from mbla.model.model import LoadCase, Pushing
 from mbla.questions.force import Objective
 from mbla.questions.reaction import Settlement
 from mbla.questions.tilt import Tilt
-from mbla.questions.travel import TravelPosition
+from mbla.questions.travel_position import TravelPosition
 from mbla.results.quantities.group import Field, Group
 
 LOAD_CASE = Group[LoadCase](lambda scene: scene.load_case, file="cases/*", asked=True)
-TRAVEL = Group[TravelPosition](lambda scene: scene.load_case.travel, file="cases/*/travel", asked=True, part="travel")
+TRAVEL = Group[TravelPosition](
+    lambda scene: scene.load_case.question.record(TravelPosition), file="cases/*/travel", asked=True, part="travel"
+)
 PUSHOVER = Group[Pushing](lambda scene: scene.load_case.pushover, file="cases/*/pushover", asked=True, part="pushover")
-TILT = Group[Tilt](lambda scene: scene.load_case.tilt, file="cases/*/tilt", asked=True, part="tilt")
+TILT = Group[Tilt](lambda scene: scene.load_case.question.record(Tilt), file="cases/*/tilt", asked=True, part="tilt")
 SETTLEMENT = Group[Settlement](
-    lambda scene: scene.load_case.settlement, file="cases/*/settlement", asked=True, part="settlement"
+    lambda scene: scene.load_case.question.record(Settlement), file="cases/*/settlement", asked=True, part="settlement"
 )
 OBJECTIVE = Group[Objective](
-    lambda scene: scene.load_case.objective, file="cases/*/objective", asked=True, part="objective"
+    lambda scene: scene.load_case.question.record(Objective), file="cases/*/objective", asked=True, part="objective"
 )
 
 ASSESSMENT = Group[LoadCase](lambda scene: scene.load_case, file="cases/*/assessment", asked=True)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from mbla.arrays import FloatArray
 from mbla.model.model import Model
-from mbla.questions.travel import TravelPosition
+from mbla.questions.travel_position import TravelPosition
 from mbla.results.quantities.group import Group
 from mbla.results.results import CaseResult, Results
 from mbla.results.series import Series, factor_of, position_of, series_of

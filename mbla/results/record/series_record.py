@@ -6,7 +6,6 @@ from dataclasses import dataclass
 
 from mbla.arrays import FloatArray
 from mbla.model.model import Model
-from mbla.questions.force import Force
 from mbla.results.force_range import ForceRange, end_value
 from mbla.results.outcome import answer_bounds
 from mbla.results.quantities import series as quantities
@@ -106,9 +105,7 @@ def objective_name(found: ForceRange) -> str:
 @OBJECTIVE.key()
 def at(found: ForceRange) -> float:
     """Load factor of its live loads."""
-    question = next(iter(found.ends.values())).load_case.question
-    assert isinstance(question, Force)  # what makes it one
-    return question.objective.at
+    return found.question.objective.at
 
 
 @OBJECTIVE.key(name="status")

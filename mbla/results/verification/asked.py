@@ -137,8 +137,8 @@ def _not_asked(deck: Deck, case: CaseResult) -> Iterator[str]:
         "a verdict on standing": (solution.standing, settings.standing),
         "a state with torsion": (solution.torsion, settings.by_torsion),
         "a least state": (solution.least, settings.by_elastic_path and settings.search > 0.0),
-        "the answer of a level table": (solution.level, load_case.tilt is not None),
-        "the lock of a level table": (solution.level_lock, load_case.tilt is not None),
+        "the answer of a level table": (solution.level, load_case.question.tilts),
+        "the lock of a level table": (solution.level_lock, load_case.question.tilts),
     }
     return (what for what, (part, asked) in present.items() if part is not None and not asked)
 

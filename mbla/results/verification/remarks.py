@@ -13,6 +13,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from mbla.assembly.assembly import Assembly
 from mbla.deck import Deck
 from mbla.errors import Message
+from mbla.questions.tilt import Tilt
 from mbla.results.collapse.ties import brittle_remarks
 from mbla.results.explanations import explanations
 from mbla.results.findings import FOUND_AGAIN
@@ -42,7 +43,7 @@ POSSIBLE: Mapping[str, Callable[[CaseResult], bool]] = {
     "livesley-confirms": lambda case: case.solution.flow_rule == "livesley" and case.status is Status.SOLVED,
     "livesley-overstates": lambda case: case.solution.flow_rule == "livesley" and case.status is not Status.SOLVED,
     "lower-not-searched": lambda case: case.solution.flow_rule != "associative",
-    "tilt-by-steps": lambda case: case.load_case.tilt is not None and not case.load_case.tilt.tangent,
+    "tilt-by-steps": lambda case: case.load_case.question.by_steps,
 }
 """Of remarks that the run alone can make: whether it can make them of a load case; of all others it can."""
 
@@ -62,10 +63,9 @@ def remarks_found_again(deck: Deck, assembly: Assembly, case: CaseResult) -> tup
     load_case, solution = case.load_case, case.solution
     model, contacts = assembly.model.of_case(load_case), assembly.contacts
     found: list[Message] = []
-    tilt = load_case.tilt
-    if tilt is not None and not tilt.tangent and _at_collapse(solution):
-        proved = tilt.upright >= math.tan(math.radians(tilt.angle) / 2.0)
-        found += [] if proved else [NOT_PROVED_BETWEEN]
+    tilt = load_case.question.record(Tilt)
+    if tilt and not (tilt.tangent or tilt.borne_to(math.radians(tilt.angle))) and _at_collapse(solution):
+        found.append(NOT_PROVED_BETWEEN)
     if load_case.pushover is not None:
         against = why_not_pushed(model, contacts, load_case, solution, case.status is Status.SOLVED)
         if solution.further.pushover.rows is not None and solution.mechanics is not None:

@@ -18,7 +18,7 @@ from mbla.arrays import FloatArray, IntArray
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import LoadCase, Model
 from mbla.model.solids.blocks import Blocks
-from mbla.questions.travel import TravelPosition
+from mbla.questions.travel_position import TravelPosition
 from mbla.results.collapse.interface_modes import sum_by_interface
 from mbla.results.collapse.mechanics import global_forces
 from mbla.results.collapse.motion import displacements_at
@@ -77,11 +77,11 @@ def load_vectors(scene: Scene) -> tuple[Vectors, ...]:
     """Dead load, live load (for load factor 1), reactions of supports and of guides, those that there are."""
     if scene.case is None:
         return ()
-    load_case, blocks = scene.case.load_case, scene.model.blocks
+    load_case, blocks, place = scene.case.load_case, scene.model.blocks, scene.case.load_case.question.place
     found = (
         _on_blocks(DEAD, blocks, load_case.dead_load),
-        _on_blocks(LIVE, blocks, without_vehicle(blocks, load_case.live_load, load_case.travel)),
-        *_of_vehicle(load_case.travel),
+        _on_blocks(LIVE, blocks, without_vehicle(blocks, load_case.live_load, place)),
+        _of_vehicle(place),
         *_reactions(scene),
     )
     return tuple(vectors for vectors in found if len(vectors.bodies))
@@ -102,13 +102,10 @@ def _on_blocks(kind: int, blocks: Blocks, loads: FloatArray) -> Vectors:
     return Vectors(kind, bodies, at, forces, np.where(there, 0.0, moments))
 
 
-def _of_vehicle(travel: TravelPosition | None) -> tuple[Vectors, ...]:
+def _of_vehicle(travel: TravelPosition) -> Vectors:
     """The axles of a travelling load that act, each where it stands; none that are shared between blocks."""
-    if travel is None or travel.spread:
-        return ()
-    acting = travel.acting
-    forces = travel.forces[acting]
-    return (Vectors(LIVE, travel.blocks[acting], travel.points[acting], forces, np.zeros_like(forces)),)
+    forces, own = travel.forces[travel.apart], travel.apart
+    return Vectors(LIVE, travel.blocks[own], travel.points[own], forces, np.zeros_like(forces))
 
 
 def _reactions(scene: Scene) -> tuple[Vectors, ...]:

@@ -150,7 +150,7 @@ class RowsOfWay:
     @property
     def _blocked(self) -> float:
         """Load factor from which something blocks the way: of a tilting table its angle, half a turn."""
-        return BLOCKED * abs(self.of.first.load_factor) if self.of.structure.case.tilt is None else np.pi
+        return np.pi if self.of.structure.case.question.tilts else BLOCKED * abs(self.of.first.load_factor)
 
     def _is_at_end(self, factor: float) -> bool:
         """Whether a load factor has fallen to its end, above which it has been; of a reaction that is no end."""

@@ -33,7 +33,7 @@ def why_not_pushed(model: Model, contacts: Contacts, case: LoadCase, solution: S
     at_corners = solution.stress_blocks and _crushes_at_corners(model, contacts)
     against = {
         "the load case is not solved": not solved or solution.mechanics is None,
-        "the table collapses at no angle": case.tilt is not None and np.isnan(factor_at_start(case, solution)),
+        "the table collapses at no angle": case.question.tilts and bool(np.isnan(factor_at_start(case, solution))),
         "guided blocks turn and move besides": turns_and_slides(model.guides),
         f"joints can crush, which is followed at points: {MORE_POINTS}": at_corners,
         "nothing touches it": not len(contacts.points),

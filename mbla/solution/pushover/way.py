@@ -220,7 +220,7 @@ class Way:
     @property
     def settles(self) -> bool:
         """Whether a support settles."""
-        return self.structure.case.settlement is not None
+        return not self.structure.case.question.multiplies
 
     @property
     def fall(self) -> CurveEnd:

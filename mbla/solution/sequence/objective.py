@@ -17,6 +17,7 @@ from mbla.assembly.assembly import Assembly
 from mbla.assembly.rigid_bodies import RigidBodies
 from mbla.model.model import LoadCase
 from mbla.model.settlement import with_reference
+from mbla.questions.load_factor import LOAD_FACTOR
 from mbla.solution.sequence.settlement import HIGH, forces_at_rest, started
 from mbla.solution.sequence.solved_case import AnalysisSequence, SolvedCase
 from mbla.solution.settings import SolverSettings
@@ -51,23 +52,22 @@ def measured_force(bodies: RigidBodies, contact_forces: FloatArray) -> float:
 
 def end_of_force(assembly: Assembly, load_case: LoadCase, settings: SolverSettings) -> AnalysisSequence:
     """One end of the range of a force, from the least forces that carry the loads."""
-    settlement = load_case.settlement
-    assert settlement is not None  # that of the load cell
+    unit = load_case.question.scale
     total = forces_at_rest(assembly, load_case, settings)
     if total is not None:
         answer = yield started(load_case, measured_force(assembly.of(load_case), total))
         if answer.solution.status in (*WITH_VALUE, Status.UNBOUNDED, Status.TIME_LIMIT):
             return _in_words(answer)
-    relieved = replace(load_case, live_load=-load_case.dead_load, settlement=None, objective=None)
+    relieved = replace(load_case, live_load=-load_case.dead_load, question=LOAD_FACTOR)
     carried = yield relieved
     if carried.solution.status is Status.NO_EQUILIBRIUM:
         solution = replace(carried.solution, reason=NOT_CARRIED)
         return replace(carried, load_case=with_reference(load_case, math.nan), solution=solution)
-    answer = yield with_reference(load_case, HIGH * settlement.unit)
+    answer = yield with_reference(load_case, HIGH * unit)
     if not math.isfinite(answer.load_factor):
         return _in_words(answer)
-    value = (HIGH - answer.load_factor) * settlement.unit
-    return (yield with_reference(load_case, value + max(abs(value), NEAR * settlement.unit)))
+    value = (HIGH - answer.load_factor) * unit
+    return (yield with_reference(load_case, value + max(abs(value), NEAR * unit)))
 
 
 def _in_words(answer: SolvedCase) -> SolvedCase:

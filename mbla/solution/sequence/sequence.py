@@ -13,6 +13,8 @@ from functools import partial
 from mbla.assembly.assembly import Assembly
 from mbla.model.model import LoadCase
 from mbla.program.build import build_program
+from mbla.questions.angle import Angle
+from mbla.questions.force import Force
 from mbla.solution.cone_solvers.cone_solution import Log
 from mbla.solution.sequence.objective import end_of_force
 from mbla.solution.sequence.settlement import settled
@@ -57,10 +59,11 @@ def analysed(
 
 def sequence_of(assembly: Assembly, load_case: LoadCase, settings: SolverSettings) -> AnalysisSequence:
     """What is to be analysed for a load case of the deck."""
-    if load_case.tilt is not None:
-        return tilting_table(assembly, load_case)
-    if load_case.objective is not None:
-        return end_of_force(assembly, load_case, settings)
+    match load_case.question:
+        case Angle(tilt):
+            return tilting_table(assembly, load_case, tilt)
+        case Force():
+            return end_of_force(assembly, load_case, settings)
     return settled(assembly, load_case, settings)
 
 

@@ -19,6 +19,7 @@ from mbla.model.settlement import with_reference
 from mbla.program.assemble import assemble
 from mbla.program.reductions import reduce_program
 from mbla.program.reductions.steps import ReductionSwitches
+from mbla.questions.load_factor import LOAD_FACTOR
 from mbla.solution.cone_solvers.cone_solution import ConeSolution
 from mbla.solution.full_model.mechanics import forces_of
 from mbla.solution.proof.static_repair import repaired_forces
@@ -59,29 +60,26 @@ def posed(assembly: Assembly, load_case: LoadCase, settings: SolverSettings) -> 
     Where no forces were found that carry the dead load while the support is held the reaction starts high: a lack of
     equilibrium in the programs that follow is then not due to the reaction.
     """
-    settlement = load_case.settlement
-    if settlement is None:
+    question = load_case.question
+    if question.multiplies:
         return load_case
     held = assembly.of(at_rest(load_case))
     total = forces_at_rest(assembly, load_case, settings, stress_free=settings.standing)
     if total is None:
-        return with_reference(load_case, HIGH * settlement.unit)
-    on_blocks = contact_resultants(held.model, held.contacts, total)[held.label[settlement.blocks]]
-    reaction = float((settlement.motions * on_blocks).sum())
-    return started(load_case, reaction)
+        return with_reference(load_case, HIGH * question.scale)
+    on_blocks = contact_resultants(held.model, held.contacts, total)[held.label[question.giving_way]]
+    return started(load_case, float((question.ways * on_blocks).sum()))
 
 
 def started(load_case: LoadCase, at_rest: float) -> LoadCase:
     """The load case of a settlement or objective with the reaction from which it starts, from one at rest."""
-    settlement = load_case.settlement
-    assert settlement is not None  # that is what has a reaction
-    nothing = abs(at_rest) <= NO_REACTION * settlement.unit
-    return with_reference(load_case, 0.0 if nothing else at_rest + MARGIN * settlement.unit)
+    unit = load_case.question.scale
+    return with_reference(load_case, 0.0 if abs(at_rest) <= NO_REACTION * unit else at_rest + MARGIN * unit)
 
 
 def at_rest(load_case: LoadCase) -> LoadCase:
     """The dead load alone, while nothing gives way."""
-    return replace(load_case, live_load=load_case.dead_load, settlement=None, objective=None)
+    return replace(load_case, live_load=load_case.dead_load, question=LOAD_FACTOR)
 
 
 def forces_at_rest(

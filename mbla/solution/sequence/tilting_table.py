@@ -21,6 +21,7 @@ from dataclasses import replace
 from mbla.assembly.assembly import Assembly
 from mbla.errors import Message
 from mbla.model.model import LoadCase
+from mbla.questions.angle import Angle
 from mbla.questions.tilt import AT_ONCE, Tilt, chord, line_of, never_left
 from mbla.solution.sequence.solved_case import AnalysisSequence, SolvedCase
 from mbla.solution.solution import Solution, Status
@@ -47,25 +48,23 @@ NOT_PROVED_BETWEEN = Message(
 )
 
 
-def tilting_table(assembly: Assembly, load_case: LoadCase) -> AnalysisSequence:
+def tilting_table(assembly: Assembly, load_case: LoadCase, tilt: Tilt) -> AnalysisSequence:
     """The angle of collapse, verified, with the solution of the level table that proves the angles before it."""
-    found = yield from tilt_angles(assembly, load_case)
+    found = yield from tilt_angles(assembly, load_case, tilt)
     return replace(found, checks=verify(assembly, found.load_case, found.solution))
 
 
-def tilt_angles(assembly: Assembly, load_case: LoadCase) -> AnalysisSequence:
+def tilt_angles(assembly: Assembly, load_case: LoadCase, tilt: Tilt) -> AnalysisSequence:
     """The angle of collapse, in ``tilt.angle`` or as tangent by the load factor, with the loads and forces there."""
-    tilt = load_case.tilt
-    assert tilt is not None  # that is why it is requested
     tangent = only_direction_counts(assembly.model, assembly.contacts, tilt)
     level = yield load_case
-    level = replace(level, load_case=replace(load_case, tilt=replace(tilt, tangent=tangent)))
+    level = replace(level, load_case=replace(load_case, question=Angle(replace(tilt, tangent=tangent))))
     if math.isnan(level.load_factor) or (tangent and math.isfinite(level.load_factor)):
         return level
     start = next_angle(tilt, level)
     if start <= AT_ONCE:  # the level table bears nothing more: an angle of 0, and so is its tangent
-        return replace(level, load_case=replace(load_case, tilt=replace(tilt, tangent=True)))
-    upright = level_bound(assembly, load_case, with_level(level.solution, level.solution))
+        return replace(level, load_case=replace(load_case, question=Angle(replace(tilt, tangent=True))))
+    upright = level_bound(assembly, load_case, tilt.across, with_level(level.solution, level.solution))
     search = _Search(load_case, replace(tilt, tangent=False, upright=upright), level.solution)
     found = yield from search.from_angle(start) if start < math.pi else search.from_probes()
     found = yield from search.before(found)
@@ -110,7 +109,7 @@ class _Search:
     def at(self, angle: float) -> AnalysisSequence:
         """The answer of the line from the level loads to those at an angle."""
         tilt = replace(self.tilt, angle=math.degrees(angle))
-        case = replace(self.load_case, live_load=chord(tilt, angle), tilt=tilt)
+        case = replace(self.load_case, live_load=chord(tilt, angle), question=Angle(tilt))
         answer = yield case
         self.angles.append(angle)
         self.seconds += answer.solution.seconds
@@ -157,12 +156,8 @@ class _Search:
 
     def before(self, found: SolvedCase) -> AnalysisSequence:
         """The same, or an earlier collapse where nothing proves that the table gets so far."""
-        angle = math.radians(found.load_case.tilt.angle) if found.load_case.tilt is not None else math.nan
-        if (
-            falls_at_once(self.tilt, found)
-            or not found.load_factor <= 1.0 + GOOD
-            or self.tilt.upright >= math.tan(angle / 2.0)
-        ):
+        angle = found.load_case.question.followed(found.load_factor)
+        if falls_at_once(self.tilt, found) or not found.load_factor <= 1.0 + GOOD or self.tilt.borne_to(angle):
             return found
         for step in range(1, BETWEEN):
             answer = yield from self.at(angle * step / BETWEEN)
@@ -174,12 +169,11 @@ class _Search:
 
     def with_words(self, found: SolvedCase) -> SolvedCase:
         """With remarks on the search."""
-        solution, tilt = found.solution, found.load_case.tilt
-        assert tilt is not None  # every answer has one
+        solution, factor = found.solution, found.load_factor
+        tilt = replace(self.tilt, angle=found.load_case.question.stated(factor))
         degrees = ", ".join(f"{math.degrees(angle):.7g}" for angle in self.angles)
         by_steps = f"The load factor is that of the change of the loads from the level table; angles tried: {degrees}"
         remarks = [Message("tilt-by-steps", by_steps)]
-        angle, factor = math.radians(tilt.angle), found.load_factor
         if factor > 1.0 + GOOD:
             solution = never_collapses(tilt, found)
             tilt = replace(tilt, angle=math.nan)
@@ -191,7 +185,9 @@ class _Search:
             reason = f"the angle did not settle: its load factor differs from 1 by {abs(factor - 1.0):.1e}"
             near = abs(factor - 1.0) <= NEAR
             solution = replace(solution, status=Status.APPROXIMATE if near else Status.NOT_VERIFIED, reason=reason)
-        elif not self.tilt.upright >= math.tan(angle / 2.0):
+        elif not tilt.borne_to(math.radians(tilt.angle)):
             remarks.append(NOT_PROVED_BETWEEN)
         solution = replace(solution, remarks=(*solution.remarks, *remarks), seconds=self.seconds)
-        return SolvedCase(replace(found.load_case, tilt=tilt), with_level(solution, self.level), found.checks)
+        return SolvedCase(
+            replace(found.load_case, question=Angle(tilt)), with_level(solution, self.level), found.checks
+        )

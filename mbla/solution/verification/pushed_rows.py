@@ -22,6 +22,7 @@ from mbla.model.model import LoadCase, Model
 from mbla.model.pose import Pose, moved_case, moved_model
 from mbla.model.ties.moved import moved_ties, tie_lengths
 from mbla.model.ties.ties import OUTSIDE, Ties
+from mbla.questions.tilt import Tilt
 from mbla.solution.pushover.record import PushedRows, RowPoints
 from mbla.solution.verification.points_on_bodies import distances_from_bodies
 from mbla.solution.verification.statics import left_to_balance
@@ -189,8 +190,8 @@ def _unbalanced(
     """Loads on the solids there, (n_solids, 6), about their centroids; of a tilting table at the angle ``factor``."""
     moved = moved_case(case, pose)
     loads = moved.dead_load + factor * moved.live_load
-    if moved.tilt is not None:
-        loads = moved.tilt.loads_at(float(np.degrees(factor)))
+    if tilt := moved.question.record(Tilt):
+        loads = tilt.loads_at(float(np.degrees(factor)))
     loads[fallen] = 0.0
     centres = (model.blocks.centroids + pose.shift) - there.centroids[solids.label]
     loads[:, 3:] += np.cross(centres, loads[:, :3])

@@ -70,23 +70,14 @@ def energy_lost(case: LoadCase, rows: PushedRows) -> float:
 def _works(case: LoadCase, rows: PushedRows) -> FloatArray:
     """Live work, what it may be off, and what the dead load gains, J since row 0, (n, 3)."""
     found, poses, factors = [np.zeros(3)], list(rows.poses), rows.load_factors
-    loads = [_loads(moved_case(case, pose), factor) for pose, factor in zip(poses, factors, strict=True)]
+    there = ((moved_case(case, pose), factor) for pose, factor in zip(poses, factors, strict=True))
+    loads = [moved.question.loads_at(moved.dead_load, moved.live_load, factor)[:2] for moved, factor in there]
     for row, (before, after) in enumerate(pairwise(poses)):
         by = before.motion_to(after)
         dead, live = (0.5 * float(np.vdot(p + q, by)) for p, q in zip(loads[row], loads[row + 1], strict=True))
         mean, apart = 0.5 * (factors[row] + factors[row + 1]), 0.5 * abs(factors[row + 1] - factors[row])
         found.append(np.array([mean * live, apart * abs(live), -dead]))
     return np.asarray(np.cumsum(found, axis=0))
-
-
-def _loads(case: LoadCase, load_factor: float) -> tuple[FloatArray, FloatArray]:
-    """Dead load and live load per unit of the load factor, (n_blocks, 6); of a table turned by that angle, what gravity
-    does upright and across.
-    """
-    if case.tilt is None:
-        return case.dead_load, case.live_load
-    share = np.sin(load_factor) / load_factor if load_factor else 1.0
-    return case.tilt.fixed + np.cos(load_factor) * case.tilt.turning, share * case.tilt.across
 
 
 def _stored(rows: PushedRows) -> float:

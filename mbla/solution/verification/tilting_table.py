@@ -19,12 +19,10 @@ GOOD = 1e-6
 """distance of the load factor from 1 up to which the case may be called solved"""
 
 
-def never_failures(load_case: LoadCase, checks: Checks) -> tuple[Message, ...]:
+def never_failures(tilt: Tilt, live_load: FloatArray, checks: Checks) -> tuple[Message, ...]:
     """What is wrong with the claim that a table collapses at no angle, proved by the loads of the one turned over."""
-    tilt = load_case.tilt
-    assert tilt is not None  # needed for such cases only
     failures = checks.failures
-    off = float(np.abs(load_case.live_load - chord(tilt, math.pi)).max(initial=0.0))
+    off = float(np.abs(live_load - chord(tilt, math.pi)).max(initial=0.0))
     if off > SAME_LOADS * float(np.abs(tilt.turning).max(initial=0.0)):
         failures += (
             Message("tilt-not-proved", "the live load is not the change from the level table to the one turned over"),
@@ -45,7 +43,7 @@ def only_direction_counts(model: Model, contacts: Contacts, tilt: Tilt) -> bool:
 
 def tilt_failures(model: Model, contacts: Contacts, load_case: LoadCase, solution: Solution) -> tuple[Message, ...]:
     """What is wrong with the angle of a case that claims one."""
-    tilt, mechanics = load_case.tilt, solution.mechanics
+    tilt, mechanics = load_case.question.record(Tilt), solution.mechanics
     if tilt is None or mechanics is None or solution.status not in WITH_VALUE:
         return ()
     if tilt.tangent and abs(mechanics.load_factor) > SAME_LOADS and not only_direction_counts(model, contacts, tilt):

@@ -11,12 +11,15 @@ from dataclasses import replace
 
 import numpy as np
 
+from mbla.arrays import FloatArray
 from mbla.assembly.assembly import Assembly
 from mbla.assembly.rigid_bodies import RigidBodies
 from mbla.contacts.contacts import Contacts
 from mbla.errors import Message
 from mbla.model.model import LoadCase, Model
 from mbla.process.stopwatch import stage
+from mbla.questions.angle import Angle
+from mbla.questions.load_factor import LOAD_FACTOR
 from mbla.solution.full_model.lifted import model_of, rule_of, solution_on_bodies
 from mbla.solution.solution import Checks, Solution, Standing, Status
 from mbla.solution.verification.case import Case
@@ -86,11 +89,11 @@ def _verify(model: Model, contacts: Contacts, load_case: LoadCase, solution: Sol
     if failures:
         checks = replace(checks, verified=False, failures=(*checks.failures, *failures))
     if solution.status is Status.UNBOUNDED:
-        failures = (
-            never_failures(load_case, checks)
-            if load_case.tilt is not None and solution.mechanics is not None
-            else (*failures, *_lock_failures(model, contacts, load_case, solution))
-        )
+        match load_case.question:
+            case Angle(tilt) if solution.mechanics is not None:
+                failures = never_failures(tilt, load_case.live_load, checks)
+            case _:
+                failures = (*failures, *_lock_failures(model, contacts, load_case, solution))
         checks = replace(checks, verified=not failures, failures=failures)
     return replace(
         checks,
@@ -128,10 +131,10 @@ def locked_with_normality(assembly: Assembly, load_case: LoadCase, solution: Sol
     return not _lock_failures(*_claimed(bodies, load_case), of_bodies)
 
 
-def level_bound(assembly: Assembly, load_case: LoadCase, solution: Solution) -> float:
+def level_bound(assembly: Assembly, load_case: LoadCase, across: FloatArray, solution: Solution) -> float:
     """Multiple of the load across that a level table is proved to bear: inf for every one, nan for none."""
     locks = solution.level_lock is not None
-    if load_case.tilt is None or (solution.level is None and not locks):
+    if solution.level is None and not locks:
         return np.nan
     claim = Solution(
         flow_rule="associative",
@@ -147,7 +150,7 @@ def level_bound(assembly: Assembly, load_case: LoadCase, solution: Solution) -> 
         stress_blocks=solution.stress_blocks,
         lock=solution.level_lock,
     )
-    level = replace(load_case, live_load=load_case.tilt.across, tilt=None)
+    level = replace(load_case, live_load=across, question=LOAD_FACTOR)
     checks = verify(assembly, level, claim)
     return checks.static_bound if not locks else np.inf if checks.verified else np.nan
 

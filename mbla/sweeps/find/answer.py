@@ -20,6 +20,7 @@ from mbla.errors import DeckError, UsageError
 from mbla.model import Model, build_model
 from mbla.model.model import LoadCase, select_cases
 from mbla.program.build import build_program
+from mbla.questions.load_factor import LOAD_FACTOR
 from mbla.results.outcome import least_known, locked_in, result_of
 from mbla.results.status_file import StatusFile
 from mbla.run import solve_case
@@ -181,5 +182,5 @@ def standing_at(deck: Deck, question: FindQuestion, x: float) -> StandingResult:
     """Whether it stands from the stress-free assembly for a value at which some forces carry the dead load."""
     varied, structure = _structure(deck, question, f"{question.parameter}={x!r}")
     settings = solver_settings(varied.analysis)
-    case = replace(structure.load_case, tilt=None)
+    case = replace(structure.load_case, question=LOAD_FACTOR)
     return standing_where_carried(build_program(structure.assembly, case, settings.analysis))

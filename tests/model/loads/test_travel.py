@@ -24,7 +24,7 @@ def test_a_load_case_for_each_position(tmp_path: Path) -> None:
     path = "force: [0, 0, -10], path: [[0.5, 0.5, 1], [2.5, 0.5, 1], [2.5, 0.5, 2], [3.5, 0.5, 2]], positions: 11"
     found = model(tmp_path, path, ROW).load_cases
     assert [case.name for case in found] == [f"push@{number:02d}" for number in range(1, 12)]
-    places = [case.travel for case in found if case.travel is not None]
+    places = [case.question.place for case in found]
     assert [place.distance for place in places] == pytest.approx(np.linspace(0, 4, 11))
     assert places[6].point == pytest.approx([2.5, 0.5, 1.4])
     assert [place.blocks[0] for place in places] == [0, 0, 1, 1, 2, 2, 2, 2, 2, 3, 3]
@@ -47,21 +47,21 @@ def test_it_lands_on_the_floor_it_is_drawn_on(tmp_path: Path) -> None:
     for z, block in ((1, 0), (2.9, 0), (3.2, 3), (4, 3), (8, 3)):
         travel = f"force: [0, 0, -1], path: [[1.1, 0.5, {z}], [1.9, 0.5, {z}]], positions: 2"
         found = model(tmp_path, travel, TWO_STOREYS)
-        assert [case.travel.blocks[0] for case in found.load_cases if case.travel] == [block, block], z
+        assert [case.question.place.blocks[0] for case in found.load_cases] == [block, block], z
     below = "force: [0, 0, -1], path: [[1.1, 0.5, 9], [1.9, 0.5, 9]], positions: 2"
     found = model(tmp_path, below, TWO_STOREYS, ", on: lower")
-    assert [case.travel.blocks[0] for case in found.load_cases if case.travel] == [0, 0]
+    assert [case.question.place.blocks[0] for case in found.load_cases] == [0, 0]
 
 
 def test_on_an_edge_and_on_a_corner(tmp_path: Path) -> None:
     """The ends of paths often lie on edges: 0 and 4 are the ends of the row, y = 0 its side, x = 1 a joint."""
     found = model(tmp_path, "force: [0, 0, -1], path: [[0, 0, 1], [4, 0, 1]], positions: 5", ROW)
-    assert [case.travel.blocks[0] for case in found.load_cases if case.travel] == [0, 0, 1, 2, 3]
+    assert [case.question.place.blocks[0] for case in found.load_cases] == [0, 0, 1, 2, 3]
 
 
 def test_against_gravity_and_sideways(tmp_path: Path) -> None:
     path = "force: [5, 0, 0], path: [[-1, 0.5, 0.2], [-1, 0.5, 0.8]], positions: 3, towards: [1, 0, 0]"
-    assert [case.travel.blocks[0] for case in model(tmp_path, path, ROW).load_cases if case.travel] == [0, 0, 0]
+    assert [case.question.place.blocks[0] for case in model(tmp_path, path, ROW).load_cases] == [0, 0, 0]
 
 
 def test_axles_follow_at_their_distances(tmp_path: Path) -> None:
@@ -84,7 +84,7 @@ def test_axles_follow_at_their_distances(tmp_path: Path) -> None:
         [0, 0, 0, 3],
     ]
     assert found[1].live_load[0] == pytest.approx([0, 0, -12, 0, 2 * (0.25 - 5 * 0.25), 0])
-    places = [case.travel for case in found if case.travel is not None]
+    places = [case.question.place for case in found]
     assert [place.distance for place in places] == pytest.approx(np.linspace(0, 5, 11))
     assert places[8].points == pytest.approx(np.array([[4.25, 0.5, 1], [2.25, 0.5, 1], [3.75, 0.5, 1]]))
     assert places[8].forces == pytest.approx(np.array([[0, 0, -2], [0, 0, -6], [0, 0, -10]]))

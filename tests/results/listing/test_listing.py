@@ -10,7 +10,8 @@ import numpy as np
 import pytest
 
 import mbla
-from mbla.questions.reaction import Settlement
+from mbla.questions.angle import Angle
+from mbla.questions.reaction import Reaction, Settlement
 from mbla.questions.tilt import Tilt
 from mbla.results.listing.answers import answer_columns
 from mbla.results.listing.listing import listing
@@ -86,8 +87,8 @@ def with_further_results(results: Results, tangent: bool = True, factor: float =
     settlement = Settlement(np.array([0]), np.array([[0.0, 0, -1, 0, 0, 0]]), False, "sinks", 30.0, 20.0)
     nothing = np.zeros((3, 6))
     tilt = Tilt(np.array([0.0, 1.0, 0.0]), nothing, nothing, nothing, 12.5, tangent, np.inf)
-    settling = replace(case.load_case, name="sinks", settlement=settlement)
-    tilted = replace(case.load_case, name="tilted", tilt=tilt)
+    settling = replace(case.load_case, name="sinks", question=Reaction(settlement))
+    tilted = replace(case.load_case, name="tilted", question=Angle(tilt))
     cases = tuple(replace(case, load_case=each, solution=solution) for each in (settling, tilted))
     return replace(results, cases=(case, *cases))
 

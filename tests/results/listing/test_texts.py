@@ -17,7 +17,8 @@ from mbla.assembly.assembly import Assembly
 from mbla.codes.assess import assessment_of
 from mbla.errors import Message
 from mbla.model.applied_load import without_forces
-from mbla.questions.reaction import Settlement
+from mbla.questions.angle import Angle
+from mbla.questions.reaction import Reaction, Settlement
 from mbla.questions.tilt import Tilt
 from mbla.results.listing.history_words import path_words
 from mbla.results.listing.listing import case_sections, listing, verification_lines
@@ -98,11 +99,11 @@ CASES = {
     "remark": case(remarks=(Message("livesley-confirms", "That is confirmed"),)),
     "self-stress": case(standing=BY_ITSELF),
     "self-stress, associative": case(of=ASSOCIATIVE, standing=BY_ITSELF),
-    "settlement": case(load={"settlement": SETTLEMENT}, checks=BY_PATH),
-    "settlement, unbounded": case(Status.UNBOUNDED, load={"settlement": SETTLEMENT}, **NONE),
-    "tilt": case(load={"tilt": TILT}, associative=None),
-    "tilt, unbounded": case(Status.UNBOUNDED, load={"tilt": TILT}, **NONE),
-    "tilt, unbounded, associative": case(Status.UNBOUNDED, of=ASSOCIATIVE, load={"tilt": TILT}, **NONE),
+    "settlement": case(load={"question": Reaction(SETTLEMENT)}, checks=BY_PATH),
+    "settlement, unbounded": case(Status.UNBOUNDED, load={"question": Reaction(SETTLEMENT)}, **NONE),
+    "tilt": case(load={"question": Angle(TILT)}, associative=None),
+    "tilt, unbounded": case(Status.UNBOUNDED, load={"question": Angle(TILT)}, **NONE),
+    "tilt, unbounded, associative": case(Status.UNBOUNDED, of=ASSOCIATIVE, load={"question": Angle(TILT)}, **NONE),
     "force": case(load={"live": (without_forces("force (1, 0, 0) N on tower[0]"),)}),
     "approximate": case(Status.APPROXIMATE, reason="did not settle"),
     "assessment": case(of=ASSOCIATIVE, load={"assessment": ASSESSED}),

@@ -12,6 +12,7 @@ from mbla.results.pictures.options import PictureOptions
 from mbla.results.pictures.page import GROUPS, SLOW
 from mbla.results.pictures.scene import part_colours, scene_of
 from mbla.solution.solution import Standing, StandingResult, Status
+from tests.asked import settlement_of
 from tests.results.shapes import BRICK, TETRA, WEDGE, blocks_of
 from tests.results.synthetic import full_results, tower_contacts, tower_mechanics, tower_model, tower_results
 
@@ -42,8 +43,7 @@ def test_forces_without_a_load_factor_are_told_as_such(status: Status, solution:
 def test_forces_of_a_support_that_gives_way_are_not_those_of_a_live_load() -> None:
     results = full_results()
     scene = scene_of(results, results.cases[0], PictureOptions(), "forces")
-    settlement = scene.case.load_case.settlement
-    assert settlement is not None
+    settlement = settlement_of(scene.case.load_case)
     assert scene.force_words == "contact forces under dead load as the support gives way; others may be possible"
     assert not scene.dead_load[settlement.blocks].any()
 

@@ -11,10 +11,13 @@ import numpy as np
 import pytest
 
 from mbla.deck.sections.selectors import POSITIONS
+from mbla.questions.reaction import Reaction
+from mbla.questions.travel import Travel
 from mbla.results.results import CaseResult, Results
 from mbla.results.tables.tables import tables_of
 from mbla.run import RunOptions, run
 from mbla.solution.solution import Mechanics, Standing, Status
+from tests.asked import settlement_of
 from tests.results.synthetic import full_results, standing_at, tower_mechanics, tower_results
 
 NAN3 = [np.nan] * 3
@@ -113,7 +116,7 @@ def block_rows(results: Results) -> list[dict[str, Any]]:
             row["weights"] = (blocks.densities[b] * blocks.volumes[b] + blocks.added_masses[b]) * GRAVITY
             row["fixed"] = bool(model.fixed[b])
             row["guided"] = b in model.guides.blocks.tolist()
-            row["settles"] = load.settlement is not None and b in load.settlement.blocks.tolist()
+            row["settles"] = b in load.question.giving_way.tolist()
             row["solid_of_block"] = None if solids is None else solids[b]
             for name, loads in (("dead", load.dead_load), ("live", load.live_load)):
                 put(row, f"{name}_load", loads[b], SIX)
@@ -259,7 +262,7 @@ def test_series_and_reactions_of_settlements(every: dict[str, Results]) -> None:
     travelling = tuple(
         replace(
             case,
-            load_case=replace(case.load_case, name=f"train_{p.number}", travel=p),
+            load_case=replace(case.load_case, name=f"train_{p.number}", question=Travel(p)),
             solution=replace(case.solution, mechanics=replace(tower_mechanics(), load_factor=1.0 / p.number)),
         )
         for p in positions
@@ -268,10 +271,9 @@ def test_series_and_reactions_of_settlements(every: dict[str, Results]) -> None:
     assert series["distance"].tolist() == [2.5, 5.0]
     assert series["load_factor"].tolist() == [1.0, 0.5]
     assert series["worst"].tolist() == [False, True]
-    settlement = case.load_case.settlement
-    assert settlement is not None
+    settlement = settlement_of(case.load_case)
     for turns, filled, empty in ((False, "force", "moment"), (True, "moment", "force")):
-        own = replace(case, load_case=replace(case.load_case, settlement=replace(settlement, turns=turns)))
+        own = replace(case, load_case=replace(case.load_case, question=Reaction(replace(settlement, turns=turns))))
         table = tables_of(replace(full, cases=(own,)))["cases"]
         assert table[f"reaction_{filled}"].tolist() == [settlement.reaction(0.5)]
         assert np.isnan(table[f"reaction_{empty}"]).all()

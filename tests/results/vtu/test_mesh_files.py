@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from mbla.deck.sections.selectors import POSITIONS
+from mbla.questions.load_factor import LOAD_FACTOR
 from mbla.results.files import OutputFolder
 from mbla.results.record.scene import Scene, scene_of
 from mbla.results.results import Results
@@ -234,7 +235,7 @@ def test_forces_that_lock_leave_guides_the_live_load_alone() -> None:
     case = results.cases[0]
     forces = tower_mechanics().contact_forces
     solution = replace(case.solution, mechanics=None, status=Status.UNBOUNDED, lock=0 * forces)
-    load_case = replace(case.load_case, settlement=None)
+    load_case = replace(case.load_case, question=LOAD_FACTOR)
     locked = replace(case, load_case=load_case, solution=solution, status=Status.UNBOUNDED)
     results = replace(
         results, assembly=replace(results.assembly, model=replace(model, load_cases=(load_case,))), cases=(locked,)

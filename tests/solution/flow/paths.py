@@ -27,6 +27,7 @@ from mbla.solution.law.elastic_joints import ElasticJoints
 from mbla.solution.law.interfaces import NONE, Interfaces
 from mbla.solution.sequence.settlement import posed
 from mbla.solution.settings import SolverSettings, solver_settings
+from tests.asked import settlement_of
 from tests.line import Line
 
 SETTINGS = SolverSettings(tolerance=1e-8)
@@ -107,8 +108,7 @@ class Case:
 
     def reaction(self, settings: PathSettings = DEFAULT, slope: float = 0.0) -> float:
         """That a support that gives way has at least."""
-        settlement = self.load_case.settlement
-        assert settlement is not None
+        settlement = settlement_of(self.load_case)
         return settlement.reference - self.load_factor(settings, slope) * settlement.unit
 
 

@@ -16,6 +16,7 @@ from mbla.solution.flow.path_record import Stop
 from mbla.solution.flow.settings import PathSettings
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Status
+from tests.asked import tilt_of
 from tests.decks.folder import BENCHMARKS, PATHS
 from tests.line import BLOCK, line_of
 from tests.solution.flow.paths import DEFAULT, case_of
@@ -91,8 +92,7 @@ def test_the_load_on_a_tilting_table_is_borne_up_to_its_angle(deck: str, name: s
     angle = read_deck(DECK[deck]).content.expected[name].angle
     assert angle is not None
     level = case_of(DECK[deck], name)
-    tilt = level.load_case.tilt
-    assert tilt is not None
+    tilt = tilt_of(level.load_case)
     there = case_of(DECK[deck], name, live=chord(tilt, math.radians(angle)))
     assert there.load_factor() == pytest.approx(1.0, rel=CLOSE)
 

@@ -16,6 +16,7 @@ from mbla.results.hdf5.result_file import read_results_hdf5, write_results_hdf5
 from mbla.run import RunOptions, run
 from mbla.solution.solution import Status
 from mbla.verify import verify_file
+from tests.asked import tilt_of
 from tests.line import case_of, factor_of
 from tests.results.changed_files import changing
 
@@ -175,7 +176,6 @@ def test_a_bracket_on_a_tilting_table(cohesion: int) -> None:
     _, case = case_of(text.replace("friction: 0.7", f"friction: 0.7, cohesion: {cohesion}"))
     assert case.status is Status.SOLVED
     assert case.solution.mechanics is not None
-    assert case.load_case.tilt is not None
-    factor, angle = case.solution.mechanics.load_factor, case.load_case.tilt.angle
+    factor, angle = case.solution.mechanics.load_factor, tilt_of(case.load_case).angle
     expected = (1000 - 0.25 * 525) / (1000 + 1.25 * 525)
     assert (np.tan(np.radians(angle)) if cohesion else factor) == pytest.approx(expected, rel=1e-6)

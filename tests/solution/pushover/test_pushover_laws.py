@@ -13,6 +13,7 @@ from mbla.results.outcome import ultimate_displacement
 from mbla.results.results import CaseResult
 from mbla.solution.pushover.curve_rows import CurveEnd
 from mbla.solution.solution import Status
+from tests.asked import settlement_of
 from tests.line import case_of
 from tests.solution.pushover.test_pushover import DECKS, columns
 
@@ -117,8 +118,7 @@ def test_the_thrust_of_an_arch_that_spreads_is_that_of_statics() -> None:
     thrust = np.array([row.reaction for row in rows])
     assert thrust == pytest.approx(half * lever / up, rel=5e-4)
     assert thrust[0] == pytest.approx(half * lever[0] / up[0], rel=1e-6)
-    unit = case.load_case.settlement.unit if case.load_case.settlement is not None else math.nan
-    errors = np.array([row.error for row in rows]) * unit / thrust
+    errors = np.array([row.error for row in rows]) * settlement_of(case.load_case).unit / thrust
     assert np.nanmax(errors) < 1e-5
     assert max(row.residual for row in rows[1:]) < 1e-5
 

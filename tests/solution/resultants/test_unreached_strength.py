@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 
 from mbla.solution.solution import Status
+from tests.asked import settlement_of
 from tests.line import case_of
 
 WALL = """mbla: 1
@@ -60,6 +61,5 @@ def test_ends_of_a_thrust_where_joints_crush(end: int, force: float, length: flo
     _, case = case_of(text, case=end)
     assert case.status is Status.SOLVED
     assert case.solution.mechanics is not None
-    settlement = case.load_case.settlement
-    assert settlement is not None
+    settlement = settlement_of(case.load_case)
     assert abs(settlement.reaction(case.solution.mechanics.load_factor)) == pytest.approx(force, rel=2e-5)

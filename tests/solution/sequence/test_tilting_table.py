@@ -11,6 +11,7 @@ import pytest
 
 from mbla.model.model import LoadCase
 from mbla.program import assemble
+from mbla.questions.angle import Angle
 from mbla.solution.sequence import tilting_table
 from mbla.solution.sequence.sequence import answer_of
 from mbla.solution.sequence.solved_case import SolvedCase
@@ -19,6 +20,7 @@ from mbla.solution.solution import Checks, Solution, Status
 from mbla.solution.verification.tilting_table import never_failures, tilt_failures
 from mbla.solution.verification.verify import verify
 from mbla.solution.verification.verify_points import verified_status
+from tests.asked import tilt_of
 from tests.line import Line, line_of, solution_of
 from tests.reached import reaches
 from tests.solution.by_hand import claim, found, state
@@ -52,7 +54,9 @@ analysis: {flow_rule: associative}
 
 def answered(line: Line, ask: Callable[[LoadCase], tuple[Solution, Checks]]) -> SolvedCase:
     """The search for the angle, each load case answered by ``ask``."""
-    return answer_of(tilt_angles(line.assembly, line.load_case), lambda case: SolvedCase(case, *ask(case)))
+    return answer_of(
+        tilt_angles(line.assembly, line.load_case, tilt_of(line.load_case)), lambda case: SolvedCase(case, *ask(case))
+    )
 
 
 def turned(text: str, *overrides: str) -> SolvedCase:
@@ -69,8 +73,7 @@ def turned(text: str, *overrides: str) -> SolvedCase:
 
 
 def angle(answer: SolvedCase) -> float:
-    tilt = answer.load_case.tilt
-    assert tilt is not None
+    tilt = tilt_of(answer.load_case)
     assert verified_status(answer.solution, answer.checks) is Status.SOLVED
     return math.degrees(math.atan(answer.load_factor)) if tilt.tangent else tilt.angle
 
@@ -79,8 +82,7 @@ def angle(answer: SolvedCase) -> float:
 def test_dry_blocks_need_one_program_only(mu: float) -> None:
     answer = turned(METRES, f"parameters.mu={mu}")
     assert angle(answer) == pytest.approx(math.degrees(math.atan(mu)), rel=1e-8)
-    assert answer.load_case.tilt is not None
-    assert answer.load_case.tilt.tangent
+    assert tilt_of(answer.load_case).tangent
 
 
 @pytest.mark.parametrize(("mu", "c"), [(0.4, 4000), (0.1, 25000), (0.0, 30000)])
@@ -125,8 +127,7 @@ def test_without_normality(rule: str) -> None:
 
 def test_what_holds_at_every_angle_has_none() -> None:
     answer = turned(METRES, "parameters.c=500000", "parameters.f=400000")
-    assert answer.load_case.tilt is not None
-    assert math.isnan(answer.load_case.tilt.angle)
+    assert math.isnan(tilt_of(answer.load_case).angle)
     assert verified_status(answer.solution, answer.checks) is Status.UNBOUNDED
     assert "up to 180 degrees, and forces are known for all others" in answer.solution.reason
 
@@ -134,13 +135,11 @@ def test_what_holds_at_every_angle_has_none() -> None:
 def test_of_what_may_collapse_between_nothing_is_claimed() -> None:
     """Were the level table to bear little across, the arc would leave what is proved; verification sees that too."""
     answer = turned(METRES, "parameters.c=500000", "parameters.f=400000")
-    tilt = answer.load_case.tilt
-    assert tilt is not None
-    weaker = replace(answer.load_case, tilt=replace(tilt, upright=0.5))
-    failures = never_failures(weaker, answer.checks)
+    tilt = tilt_of(answer.load_case)
+    live = answer.load_case.live_load
+    failures = never_failures(replace(tilt, upright=0.5), live, answer.checks)
     assert failures == ("nothing proves that the table bears every angle up to 180 degrees",)
-    other = replace(answer.load_case, live_load=0.5 * answer.load_case.live_load)
-    assert never_failures(other, answer.checks) == (
+    assert never_failures(tilt, 0.5 * live, answer.checks) == (
         "the live load is not the change from the level table to the one turned over",
     )
     unproved = never_collapses(replace(tilt, upright=0.5, angle=180.0), answer_as_solved(answer))
@@ -156,16 +155,14 @@ def test_what_falls_while_level_has_none() -> None:
     lean = text.replace("{live: [{tilt", "{dead: [{gravity: [6, 0, -9]}], live: [{tilt")
     answer = turned(lean, "parameters.c=100")
     assert answer.solution.status is Status.NO_EQUILIBRIUM
-    assert answer.load_case.tilt is not None
-    assert math.isnan(answer.load_case.tilt.angle)
+    assert math.isnan(tilt_of(answer.load_case).angle)
 
 
 def test_what_is_at_its_limit_while_level_falls_at_once() -> None:
     """A force through the centroid that the joint just bears: mu W + c A."""
     force = "{dead: [{gravity: [0, 0, -9.81]}, {force: ['=0.4*w*5.94+4000*2.7', 0, 0], on: block, at: [0, 0.45, 0]}], "
     answer = turned(METRES.replace("{live: [{tilt", force + "live: [{tilt"), "parameters.c=4000")
-    assert answer.load_case.tilt is not None
-    assert answer.load_case.tilt.tangent
+    assert tilt_of(answer.load_case).tangent
     assert answer.load_factor == pytest.approx(0.0, abs=1e-7)
 
 
@@ -183,11 +180,10 @@ def test_crushing_on_the_way_is_not_passed_over() -> None:
 
 def test_a_false_angle_is_found_out() -> None:
     answer = turned(METRES, "parameters.c=4000")
-    tilt = answer.load_case.tilt
-    assert tilt is not None
+    tilt = tilt_of(answer.load_case)
     line = line_of(METRES, "parameters.c=4000")
     assert not tilt_failures(line.model, line.contacts, answer.load_case, answer.solution)
-    false = replace(answer.load_case, tilt=replace(tilt, angle=tilt.angle + 0.01))
+    false = replace(answer.load_case, question=Angle(replace(tilt, angle=tilt.angle + 0.01)))
     assert len(tilt_failures(line.model, line.contacts, false, answer.solution)) == 1
 
 
@@ -214,10 +210,9 @@ def test_at_once_is_within_what_rounding_leaves_of_an_angle(
     )
     text = text.replace("axis: [0, 1, 0]", "axis: [0, 1, 0.2]")
     answer = turned(text, "parameters.mu=0", "parameters.f=1")
-    assert answer.load_case.tilt is not None
     monkeypatch.setattr(tilting_table, "next_angle", lambda tilt, found: crossing)
-    assert falls_at_once(answer.load_case.tilt, answer) is at_once
-    assert not falls_at_once(answer.load_case.tilt, replace(answer, solution=carrying(answer, 1e-5)))
+    assert falls_at_once(tilt_of(answer.load_case), answer) is at_once
+    assert not falls_at_once(tilt_of(answer.load_case), replace(answer, solution=carrying(answer, 1e-5)))
 
 
 def carrying(answer: SolvedCase, load_factor: float) -> Solution:
@@ -241,8 +236,7 @@ def test_in_a_closed_box_it_holds_at_every_angle() -> None:
         "{ground: {point: [0, 0, 2.2], normal: [0, 0, -1]}}, "
     )
     answer = turned(METRES.replace("supports: [", "supports: [" + grounds))
-    assert answer.load_case.tilt is not None
-    assert math.isnan(answer.load_case.tilt.angle)
+    assert math.isnan(tilt_of(answer.load_case).angle)
     assert verified_status(answer.solution, answer.checks) is Status.UNBOUNDED
     assert any("angles tried: 90, 135, 180" in remark for remark in answer.solution.remarks)
 
@@ -291,8 +285,7 @@ def test_an_angle_that_does_not_settle_is_no_answer(most: int, status: Status, m
 def made(factor: float, crossing: float, *, static_bound: float = 0.1) -> tuple[Solution, Checks]:
     """What a solver says of a line: its load factor, and the angle in degrees that its mechanism bounds."""
     line = line_of(METRES, "parameters.c=4000")
-    table = line.load_case.tilt
-    assert table is not None
+    table = tilt_of(line.load_case)
     # across · u = factor/sin t and turning · u = 0: the circle leaves the line at t
     size = float((table.across**2).sum())
     mechanism = factor / math.sin(math.radians(crossing)) * table.across / size
@@ -305,8 +298,7 @@ def searched(factors: Callable[[float], tuple[float, float]]) -> SolvedCase:
     line = line_of(METRES, "parameters.c=4000")
 
     def ask(case: LoadCase) -> tuple[Solution, Checks]:
-        assert case.tilt is not None
-        return made(*factors(case.tilt.angle))
+        return made(*factors(tilt_of(case).angle))
 
     return answered(line, ask)
 
@@ -314,8 +306,7 @@ def searched(factors: Callable[[float], tuple[float, float]]) -> SolvedCase:
 def test_a_line_made_up_is_left_where_it_says() -> None:
     solution, checks = made(0.7, 25.0)
     line = line_of(METRES, "parameters.c=4000")
-    assert line.load_case.tilt is not None
-    next_angle = tilting_table.next_angle(line.load_case.tilt, SolvedCase(line.load_case, solution, checks))
+    next_angle = tilting_table.next_angle(tilt_of(line.load_case), SolvedCase(line.load_case, solution, checks))
     assert math.degrees(next_angle) == pytest.approx(25.0, rel=1e-12)
 
 
@@ -332,16 +323,14 @@ def test_a_collapse_on_the_way_is_found_where_nothing_is_proved_of_the_way() -> 
         return (1.0, 60.0) if degrees > 59 else (0.5, 20.0) if degrees > 29 else (1.0 if degrees > 19 else 2.0, 20.0)
 
     answer = searched(factors)
-    assert answer.load_case.tilt is not None
-    assert answer.load_case.tilt.angle == pytest.approx(20.0, rel=1e-9)
+    assert tilt_of(answer.load_case).angle == pytest.approx(20.0, rel=1e-9)
     assert tried(answer) == "60, 7.5, 15, 22.5, 30, 20"
     assert "tilt-between-not-proved" in {remark.identifier for remark in answer.solution.remarks}
 
 
 def test_angles_before_are_looked_at_where_nothing_is_proved_of_them() -> None:
     answer = searched(lambda degrees: (0.5 if math.isnan(degrees) else 1.0 if degrees > 59 else 2.0, 60.0))
-    assert answer.load_case.tilt is not None
-    assert answer.load_case.tilt.angle == pytest.approx(60.0, rel=1e-9)
+    assert tilt_of(answer.load_case).angle == pytest.approx(60.0, rel=1e-9)
     assert tried(answer) == "60, 7.5, 15, 22.5, 30, 37.5, 45, 52.5"
     assert "tilt-between-not-proved" in {remark.identifier for remark in answer.solution.remarks}
 
@@ -351,8 +340,7 @@ def test_a_table_that_falls_at_once_on_the_way_has_the_angle_zero() -> None:
         return (0.5, 60.0) if math.isnan(degrees) else (1.0, 60.0) if degrees > 59 else (1e-9, 1e-6)
 
     answer = searched(factors)
-    assert answer.load_case.tilt is not None
-    assert answer.load_case.tilt.angle == 0.0
+    assert tilt_of(answer.load_case).angle == 0.0
     assert tried(answer) == "60, 7.5"
 
 
@@ -361,8 +349,7 @@ def test_a_probe_without_an_answer_ends_the_search() -> None:
     line = line_of(METRES, "parameters.c=4000")
 
     def ask(case: LoadCase) -> tuple[Solution, Checks]:
-        assert case.tilt is not None
-        level = math.isnan(case.tilt.angle)
+        level = math.isnan(tilt_of(case).angle)
         return claim(None, Status.UNBOUNDED if level else Status.NUMERICAL_ERROR, reason="broke down"), found()
 
     answer = answered(line, ask)

@@ -10,9 +10,12 @@ import numpy as np
 import pytest
 
 from mbla.model.model import LoadCase
+from mbla.questions.angle import Angle
+from mbla.questions.load_factor import LOAD_FACTOR
 from mbla.questions.tilt import Tilt
 from mbla.solution.solution import Status
 from mbla.solution.verification.tilting_table import never_failures, tilt_failures
+from tests.asked import tilt_of
 from tests.line import Line
 from tests.solution.by_hand import claim, cube, found, state
 
@@ -30,7 +33,7 @@ def tilt(angle: float = math.nan, tangent: bool = True, upright: float = math.na
 
 
 def by_tangent(line: Line) -> LoadCase:
-    return replace(line.load_case, tilt=tilt(), dead_load=DOWN, live_load=ACROSS)
+    return replace(line.load_case, question=Angle(tilt()), dead_load=DOWN, live_load=ACROSS)
 
 
 def by_angle(line: Line, degrees: float, told: float | None = None) -> LoadCase:
@@ -38,7 +41,7 @@ def by_angle(line: Line, degrees: float, told: float | None = None) -> LoadCase:
     turn = math.radians(degrees)
     live = math.sin(turn) * ACROSS + (math.cos(turn) - 1.0) * DOWN
     table = tilt(degrees if told is None else told, tangent=False)
-    return replace(line.load_case, tilt=table, dead_load=FIXED + DOWN, live_load=live)
+    return replace(line.load_case, question=Angle(table), dead_load=FIXED + DOWN, live_load=live)
 
 
 def failures(line: Line, case: LoadCase, factor: float, status: Status = Status.SOLVED) -> tuple[str, ...]:
@@ -77,12 +80,11 @@ def test_a_millionth_of_what_turns_may_be_off(side: float, line: Line) -> None:
 
 def test_small_loads_are_measured_by_themselves(line: Line) -> None:
     case = by_angle(line, 30.0)
-    assert case.tilt is not None
-    table = replace(case.tilt, **{name: getattr(case.tilt, name) / 1024 for name in ("fixed", "turning", "across")})
+    table = tilt_of(case).with_loads(lambda loads: loads / 1024)
     for off, right in ((0.99e-6, True), (1.01e-6, False)):
         dead = case.dead_load / 1024
         dead[1, 4] += off * 32.0 / 1024
-        small = replace(case, tilt=table, dead_load=dead, live_load=case.live_load / 1024)
+        small = replace(case, question=Angle(table), dead_load=dead, live_load=case.live_load / 1024)
         assert (failures(line, small, 1.0) == ()) == right
 
 
@@ -102,8 +104,7 @@ def test_no_tangent_where_the_size_of_the_loads_counts(joint: str, line: Line) -
     assert "not the tangent of the angle" in failure
     assert failures(strong, by_tangent(strong), 0.0) == ()
     case = by_tangent(line)
-    assert case.tilt is not None
-    pulled = replace(case, tilt=replace(case.tilt, fixed=1e-9 * DOWN), dead_load=(1 + 1e-9) * DOWN)
+    pulled = replace(case, question=Angle(replace(tilt_of(case), fixed=1e-9 * DOWN)), dead_load=(1 + 1e-9) * DOWN)
     (failure,) = failures(line, pulled, 0.25)
     assert "not the tangent of the angle" in failure
 
@@ -111,15 +112,14 @@ def test_no_tangent_where_the_size_of_the_loads_counts(joint: str, line: Line) -
 def test_cases_without_an_angle(line: Line) -> None:
     case = by_angle(line, 30.0, told=math.nan)
     assert failures(line, case, 1.0) == ()
-    assert failures(line, replace(by_angle(line, 30.0, told=60.0), tilt=None), 1.0) == ()
+    assert failures(line, replace(by_angle(line, 30.0, told=60.0), question=LOAD_FACTOR), 1.0) == ()
     assert tilt_failures(line.model, line.contacts, by_angle(line, 30.0, told=60.0), claim(None)) == ()
 
 
 def never(line: Line, upright: float, over: float, off: float = 0.0, **changes: Any) -> tuple[str, ...]:
     live = -2.0 * DOWN
     live[1, 3] += off
-    case = replace(line.load_case, tilt=tilt(upright=upright), dead_load=DOWN, live_load=live)
-    return never_failures(case, found(static_bound=over, **changes))
+    return never_failures(tilt(upright=upright), live, found(static_bound=over, **changes))
 
 
 NOT_PROVED = "nothing proves that the table bears every angle up to 180 degrees"
@@ -147,8 +147,7 @@ def test_its_live_load_turns_it_over(side: float, line: Line) -> None:
 def test_small_loads_that_do_not_turn_it_over(line: Line) -> None:
     table = replace(tilt(upright=2.0), turning=DOWN / 1024, across=ACROSS / 1024)
     for share, expected in ((1.0 + 0.4e-6, ()), (1.0 + 0.6e-6, (NOT_OVER,))):
-        case = replace(line.load_case, tilt=table, live_load=-2.0 * share * DOWN / 1024)
-        assert never_failures(case, found(static_bound=4.0)) == expected
+        assert never_failures(table, -2.0 * share * DOWN / 1024, found(static_bound=4.0)) == expected
 
 
 def test_what_else_is_wrong_stays_wrong(line: Line) -> None:

@@ -15,6 +15,7 @@ from typing import Any
 from mbla.deck.deck import sha256_of
 from mbla.errors import Message
 from mbla.process.run_options import RunOptions
+from mbla.questions.angle import Angle
 from mbla.results.exit_status import exit_code
 from mbla.results.findings import FOUND_AGAIN
 from mbla.results.hdf5.result_file import write_results_hdf5
@@ -26,6 +27,7 @@ from mbla.solution.pushover.pushover import NOT_PUSHED, Pushover
 from mbla.solution.pushover.record import PushedRows, RowPoints
 from mbla.solution.solution import Mechanics, Solution
 from mbla.verify import rebuilt, recomputed
+from tests.asked import tilt_of
 from tests.decks.folder import PATHS
 from tests.line import HEAD
 
@@ -148,7 +150,7 @@ def _all_cases_removed(results: Results, generator: random.Random) -> Results | 
 
 def _some_of_a_series_removed(results: Results, generator: random.Random) -> Results | None:
     """Positions of a load that travels, or an end of an objective."""
-    series = [case for case in results.cases if case.load_case.travel or case.load_case.objective]
+    series = [case for case in results.cases if case.load_case.question.series]
     if not series:
         return None
     gone = {case.load_case.name for case in generator.sample(series, generator.randint(1, len(series)))}
@@ -287,8 +289,7 @@ def _remark_invented(results: Results, generator: random.Random) -> Results | No
     identifier = generator.choice([*sorted(FOUND_AGAIN), "certified", "livesley-confirms", "tilt-by-steps"])
 
     def change(case: CaseResult) -> CaseResult | None:
-        tilt = case.load_case.tilt
-        if identifier == "tilt-by-steps" and tilt is not None and not tilt.tangent:
+        if identifier == "tilt-by-steps" and case.load_case.question.by_steps:
             return None
         return _with(case, remarks=(*case.solution.remarks, Message(identifier, "all is well")))
 
@@ -308,12 +309,10 @@ def _no_tangent(results: Results, generator: random.Random) -> Results | None:
 def _of_table(results: Results, **changes: Any) -> Results | None:
     """All tilting tables changed."""
     cases = tuple(
-        case if case.tilt is None else replace(case, tilt=replace(case.tilt, **changes))
+        replace(case, question=Angle(replace(tilt_of(case), **changes))) if case.question.tilts else case
         for case in results.model.load_cases
     )
-    if all(
-        case.tilt is None or case.tilt == old.tilt for case, old in zip(cases, results.model.load_cases, strict=True)
-    ):
+    if not any(case.question.tilts for case in cases):
         return None
     known = {case.name: case for case in cases}
     solved = tuple(replace(case, load_case=known[case.load_case.name]) for case in results.cases)

@@ -15,7 +15,7 @@ from mbla.results.listing.verdict_words import load_factor_words
 from mbla.results.outcome import curve_residual, ultimate_displacement
 from mbla.results.results import CaseResult
 from mbla.solution.pushover.curve_rows import CurveEnd, CurveRow
-from mbla.solution.pushover.followed import STEP_DEPENDENCE, step_dependence
+from mbla.solution.pushover.followed import STEP_DEPENDENCE, greatest_value, step_dependence
 from mbla.solution.thresholds import APPROXIMATE_RESIDUAL, SOLVED_RESIDUAL
 
 NOTABLE_MISS = 0.02
@@ -46,8 +46,7 @@ def curve_words(model: Model, case: CaseResult) -> str:
             says += f"{row_words(model, case.load_case, last)} at {within(last.displacement, end)} {length}"
             says += f", where {words}"
     if np.isfinite(errors).any():
-        values = [row.reaction / question.scale if question.group == "reaction" else row.load_factor for row in curve]
-        share = np.nanmax(errors) / np.abs(values).max()
+        share = np.nanmax(errors) / greatest_value(case.load_case, np.array([row.load_factor for row in curve]))
         says += f"; steps of twice the size differ by up to {share:.1g} of the greatest"
     if broken := curve[-1].broken:
         first = next(row.displacement for row in curve if row.broken)

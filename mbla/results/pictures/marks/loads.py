@@ -18,7 +18,7 @@ from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.model.applied_load import AppliedLoad
 from mbla.model.model import LoadCase, Model
 from mbla.questions.reaction import Settlement
-from mbla.questions.travel import TravelPosition
+from mbla.questions.travel_position import NOWHERE, TravelPosition
 from mbla.results.pictures.marks.marks import Mark, arrows, dots, rings, segments
 from mbla.results.pictures.page import CASES, DEAD_LOAD, LIVE_LOAD
 from mbla.results.pictures.scene import PictureScene
@@ -52,7 +52,7 @@ def shown_loads(scene: PictureScene, kind: str) -> list[Mark]:
     for row, (name, together) in enumerate(cases.items()):
         label = f"live load {name}" if len(cases) > 1 else "live load"
         label, colour = label if row < MOST_CASES else "", CASES[row % len(CASES)]
-        if len(together) > 1 and together[0].load_case.travel is not None:
+        if len(together) > 1 and position_of(together[0]).count:
             found += path_marks(together, f"{label}, {len(together)} positions" if label else "", colour)
             together = [worst_known(together)]
         for each in together:
@@ -76,11 +76,11 @@ def live_marks(scene: PictureScene, case: LoadCase, label: str, colour: str, pla
     """
     if not case.question.collapses:
         return []
-    if case.settlement is not None:
-        text = f"{label.replace('live load', '').strip()} {case.settlement.words}".strip()
-        return _of_settlement(scene, text if label else "", colour, case.settlement)
+    if settlement := case.question.record(Settlement):
+        text = f"{label.replace('live load', '').strip()} {settlement.words}".strip()
+        return _of_settlement(scene, text if label else "", colour, settlement)
     text = text_of(label, case.live_words) if label else ""
-    return marks_of_load(scene, text, colour, case.live_load, case.live, case.travel, place)
+    return marks_of_load(scene, text, colour, case.live_load, case.live, case.question.place, place)
 
 
 def _arrow_above(
@@ -107,7 +107,7 @@ def marks_of_load(
     colour: str,
     loads: FloatArray,
     applied: Sequence[AppliedLoad],
-    travel: TravelPosition | None = None,
+    travel: TravelPosition = NOWHERE,
     place: int = 0,
 ) -> list[Mark]:
     """Arrows of loads on free blocks about their centroids, (n_blocks, 6); rings of moments without a force.
@@ -128,13 +128,12 @@ def marks_of_load(
     points, left = lines_of_action(blocks.centroids[under], rest[under])
     forces, about = rest[under, :3], rest[:, 3:].copy()
     about[under] = left
-    if travel is not None:
-        acting = travel.acting & ~model.fixed[travel.blocks]
-        under, forces = np.append(under, travel.blocks[acting]), np.vstack([forces, travel.forces[acting]])
-        points = np.vstack([points, travel.points[acting]])
+    acting = travel.acting & ~model.fixed[travel.blocks]
+    under, forces = np.append(under, travel.blocks[acting]), np.vstack([forces, travel.forces[acting]])
+    points = np.vstack([points, travel.points[acting]])
     if len(under):
         tips, both = _entries(model, under, points, forces), np.column_stack([under, under])
-        if travel is not None and travel.spread:  # the axles on top, and below what lands of them
+        if travel.spread:  # the axles on top, and below what lands of them
             tips[len(tips) - int(acting.sum()) :] = travel.points[acting]
         mark = arrows(text, colour, tips, arrow_steps(forces, size), both, [text] * len(under))
         found.append(replace(mark, covered=len(under) > MANY))

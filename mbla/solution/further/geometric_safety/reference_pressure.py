@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from mbla.questions.load_factor import LOAD_FACTOR
 from mbla.solution.further.sensitivity.structures import LoadedAssembly
 from mbla.solution.verification.statics import contact_resultants
 
@@ -23,5 +24,5 @@ def pressed_by(structure: LoadedAssembly, reference_pressure: float, unit: float
     normal = np.zeros((len(contacts.points), 3))
     normal[:, 0] = unit * contacts.point_areas
     apart = contact_resultants(structure.model, contacts, normal)
-    posed = replace(case, dead_load=case.dead_load - reference_pressure * apart, live_load=apart, tilt=None)
+    posed = replace(case, dead_load=case.dead_load - reference_pressure * apart, live_load=apart, question=LOAD_FACTOR)
     return replace(structure, load_case=posed)

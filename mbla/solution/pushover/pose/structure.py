@@ -94,21 +94,13 @@ class PushedStructure:
     def loads_at(self, pose: Pose, fallen: BoolArray, load_factor: float) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Dead and live load on the solids there, (n_solids, 6) each, and the change of all loads with the load factor.
 
-        Without those of debris, (n_solids,). The change is the live load, but for a tilting table at the angle λ::
-
-            fixed + cos λ turning + λ (sin λ / λ) across,     change −sin λ turning + cos λ across
+        Without those of debris, (n_solids,). The change is the live load, but for a tilting table.
         """
         case = moved_case(self.case, self.blocks_at(pose))
         arms = np.einsum("nij,nj->ni", pose.rotation[self.solids.label], self.solids.arms)
         solids = replace(self.solids, arms=arms)
-        if case.tilt is None:
-            dead, live = solids.loads(case.dead_load), solids.loads(case.live_load)
-            dead[fallen], live[fallen] = 0.0, 0.0
-            return dead, live, live
-        tilt, cos, sin = case.tilt, np.cos(load_factor), np.sin(load_factor)
-        dead = solids.loads(tilt.fixed + cos * tilt.turning)
-        live = solids.loads(np.sinc(load_factor / np.pi) * tilt.across)
-        change = solids.loads(cos * tilt.across - sin * tilt.turning)
+        parts = case.question.loads_at(case.dead_load, case.live_load, load_factor)
+        dead, live, change = (solids.loads(each) for each in parts)
         dead[fallen], live[fallen], change[fallen] = 0.0, 0.0, 0.0
         return dead, live, change
 

@@ -8,8 +8,9 @@ import numpy as np
 import pytest
 
 from mbla.model.applied_load import AppliedLoad, without_forces
-from mbla.questions.reaction import Settlement
-from mbla.questions.travel import TravelPosition
+from mbla.questions.reaction import Reaction, Settlement
+from mbla.questions.travel import Travel
+from mbla.questions.travel_position import NOWHERE, TravelPosition
 from mbla.results.pictures.marks.loads import MANY, arrow_steps, live_marks, marks_of_load, shown_loads
 from mbla.results.pictures.marks.marks import Mark
 from mbla.results.pictures.options import PictureOptions
@@ -36,7 +37,7 @@ def wrench(force: list[float], point: list[float], block: int) -> np.ndarray:
     return loads
 
 
-def marks(loads: np.ndarray, *applied: AppliedLoad, travel: TravelPosition | None = None) -> list[Mark]:
+def marks(loads: np.ndarray, *applied: AppliedLoad, travel: TravelPosition = NOWHERE) -> list[Mark]:
     return marks_of_load(scene(), "load", LIVE_LOAD, loads, applied, travel)
 
 
@@ -133,9 +134,8 @@ def test_positions_of_a_travelling_load_are_one_way_and_the_arrows_of_the_worst(
         case = results.cases[0]
         travel = standing_at(number, 3, np.array([0.2 * number, 0.5, 4.0]), 0.2 * number)
         loads = wrench([0, 0, -1], travel.points[0].tolist(), 1)
-        load_case = replace(
-            case.load_case, name=f"train@{number}", live_load=loads, live=(without_forces("f"),), travel=travel
-        )
+        named = replace(case.load_case, name=f"train@{number}", question=Travel(travel))
+        load_case = replace(named, live_load=loads, live=(without_forces("f"),))
         solution = replace(case.solution, mechanics=replace(own, load_factor=factor))
         cases.append(replace(case, load_case=load_case, solution=solution))
     shown = scene(replace(results, cases=tuple(cases)))
@@ -172,7 +172,7 @@ def test_a_support_that_gives_way_has_an_arrow_along_its_motion_or_a_ring(
     motion: list[float], kinds: list[bool]
 ) -> None:
     given = Settlement(np.array([2]), np.array([motion], float), False, "settlement of brick[0]", 1.0, 1.0)
-    case = replace(tower_model().load_cases[0], settlement=given)
+    case = replace(tower_model().load_cases[0], question=Reaction(given))
     found = live_marks(scene(), case, "live load", LIVE_LOAD)
     assert [mark.arrows for mark in found] == kinds
     assert all(mark.name == "settlement of brick[0]" for mark in found)
