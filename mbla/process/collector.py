@@ -36,5 +36,5 @@ def loading() -> Iterator[None]:
     before = len(sys.modules)
     with no_collection(), held_signals():
         yield
-    if len(sys.modules) > before:
-        gc.freeze()
+        if len(sys.modules) > before:
+            gc.freeze()  # before the collector may run again, which would walk through them once
