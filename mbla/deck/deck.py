@@ -16,7 +16,7 @@ from mbla.deck.groups import put_groups_in_place
 from mbla.deck.notices import notices_of
 from mbla.deck.parameter_keys import parameter_faults
 from mbla.deck.references import check_references, side_files
-from mbla.deck.section import built
+from mbla.deck.section import validator
 from mbla.deck.sections.analysis import AnalysisSection
 from mbla.deck.sections.contacts import ContactsSection
 from mbla.deck.text.include import Reading, confined, read_files
@@ -184,7 +184,7 @@ def _read(path: Path, files: tuple[Tree, Reading], overrides: Sequence[str], *, 
 def _units(data: dict[str, Any]) -> Units:
     """Units of the deck; the defaults where they are at fault, which is reported with everything else."""
     try:
-        section = built(UnitsSection).model_validate(data.get("units", {}))
+        section = validator(UnitsSection).validate_python(data.get("units", {}))
     except ValueError:
         return Units()
     return Units(section.length, section.force, section.mass)

@@ -7,7 +7,9 @@ A rule gets a section whose own keys are all valid and yields what is wrong belo
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextvars import ContextVar
 from dataclasses import dataclass
+from functools import cache
 from typing import Annotated, Any, TypeAlias, TypeVar, get_args, get_origin
 
 from pydantic import (
@@ -15,6 +17,7 @@ from pydantic import (
     ConfigDict,
     GetCoreSchemaHandler,
     ModelWrapValidatorHandler,
+    TypeAdapter,
     ValidationError,
     ValidationInfo,
     create_model,
@@ -107,10 +110,27 @@ def wrong_values(context: dict[str, Any] | None) -> WrongValues:
     return found if isinstance(found, WrongValues) else WrongValues()
 
 
+_built: ContextVar[type | None] = ContextVar("section", default=None)
+"""whose validator is being made by ``validator``"""
+
+
 class Section(BaseModel):
-    """A mapping of the deck: unknown keys are refused, nothing changes after reading."""
+    """A mapping of the deck: unknown keys are refused, nothing changes after reading.
+
+    The validator of a section within another is made when a deck first has one: most decks have few of them.
+    """
 
     model_config = ConfigDict(extra="forbid", frozen=True, defer_build=True)
+
+    @classmethod
+    def __get_pydantic_core_schema__(cls, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
+        if _built.get() in (None, cls):
+            return handler(source)
+
+        def check(value: Any, info: core_schema.ValidationInfo) -> Any:
+            return validator(cls).validate_python(value, context=info.context)
+
+        return core_schema.with_info_plain_validator_function(check)
 
     @model_validator(mode="wrap")
     @classmethod
@@ -129,11 +149,17 @@ class Section(BaseModel):
         return section
 
 
-def built(kind: type[Model]) -> type[Model]:
-    """A type whose validator is there; signals wait, as pydantic reports an interruption as a fault of the type."""
+@cache
+def validator(kind: type[Model]) -> TypeAdapter[Model]:
+    """What checks values of a type; signals wait, as pydantic reports an interruption as a fault of the type."""
     with held_signals():
-        kind.model_rebuild()
-    return kind
+        token = _built.set(kind)
+        try:
+            adapter = TypeAdapter(kind)
+            adapter.rebuild()
+        finally:
+            _built.reset(token)
+    return adapter
 
 
 @dataclass(frozen=True)

@@ -9,7 +9,7 @@ from pydantic import BaseModel, ValidationError
 
 from mbla.deck.fields import allowed_keys, description
 from mbla.deck.quantities import PATTERNS
-from mbla.deck.section import MOST_WRONG, WRONG, TooManyWrongError, WrongValues, built
+from mbla.deck.section import MOST_WRONG, WRONG, TooManyWrongError, WrongValues, validator
 from mbla.deck.suggestions import did_you_mean, listed, unknown
 from mbla.deck.text.tree import MappingMarks, SequenceMarks, Tree, own_mark
 from mbla.errors import MOST_FAULTS, Fault, KeyPath, Message, first_faults
@@ -32,7 +32,7 @@ def validate(
     """
     errors: Sequence[Any]
     try:
-        return built(root).model_validate(tree.data, context={"convert": convert, WRONG: WrongValues()}), []
+        return validator(root).validate_python(tree.data, context={"convert": convert, WRONG: WrongValues()}), []
     except ValidationError as error:
         errors = error.errors(include_url=False, include_context=True)
     except TooManyWrongError:
@@ -47,7 +47,7 @@ def _errors_of_first(data: dict[str, Any], root: type[BaseModel], convert: Conve
     """What is wrong with the first items of the lists of a deck; nothing where that is too much as well."""
     first = {key: value[: MOST_FAULTS + 1] if isinstance(value, list) else value for key, value in data.items()}
     try:
-        root.model_validate(first, context={"convert": convert, WRONG: WrongValues()})
+        validator(root).validate_python(first, context={"convert": convert, WRONG: WrongValues()})
     except ValidationError as error:
         return error.errors(include_url=False, include_context=True)
     except TooManyWrongError:

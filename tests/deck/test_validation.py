@@ -11,7 +11,7 @@ from typing import Any
 
 import pytest
 
-from mbla.deck.section import MOST_WRONG, Section, built
+from mbla.deck.section import MOST_WRONG, Section, validator
 from mbla.errors import MOST_FAULTS
 from tests.deck.decks import BLOCK, changed, faults, write
 
@@ -101,15 +101,18 @@ def test_of_very_many_wrong_names_none_is_told(tmp_path: Path) -> None:
 
 
 def test_a_signal_waits_until_the_validator_is_there() -> None:
+    arriving = [signal.SIGINT]
+
     class Struck(str):
         @classmethod
         def __get_pydantic_core_schema__(cls, source: Any, handler: Any) -> Any:
-            signal.raise_signal(signal.SIGINT)
+            while arriving:
+                signal.raise_signal(arriving.pop())
             return handler(str)
 
     class Stone(Section):
         name: Struck
 
     with pytest.raises(KeyboardInterrupt):
-        built(Stone)
-    assert built(Stone).model_validate({"name": "ashlar"}).name == "ashlar"
+        validator(Stone)
+    assert validator(Stone).validate_python({"name": "ashlar"}).name == "ashlar"
