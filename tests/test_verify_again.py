@@ -11,7 +11,8 @@ import pytest
 from mbla.cli import main
 from mbla.process.run_options import RunOptions
 from mbla.results.exit_status import exit_code
-from mbla.results.listing.history_words import NOT_CHECKED, history_words
+from mbla.results.findings import NOT_CHECKED
+from mbla.results.listing.history_words import history_words
 from mbla.results.listing.listing import listing, verification_lines
 from mbla.results.record.json_record import verification_json
 from mbla.results.results import CaseResult, Results

@@ -11,7 +11,7 @@ import pytest
 
 from mbla.process.run_options import RunOptions
 from mbla.results.exit_status import exit_code
-from mbla.results.listing.history_words import NOT_FOLLOWED
+from mbla.results.findings import NOT_FOLLOWED
 from mbla.results.listing.listing import verification_lines
 from mbla.results.record.json_record import verification_json
 from mbla.results.results import Results

@@ -21,7 +21,7 @@ from mbla.contacts.contacts import Contacts
 from mbla.errors import Notice
 from mbla.model.model import Model
 from mbla.program.assemble import yield_limits
-from mbla.results.results import CaseResult
+from mbla.results.results import CaseResult, Results
 from mbla.solution.solution import Status
 from mbla.solution.thresholds import NEAR_ZERO
 from mbla.solution.verification.case import PROVED_RESIDUAL
@@ -217,6 +217,25 @@ def _slender(contacts: Contacts, friction: FloatArray, arms: FloatArray) -> list
     ratio = float((mu[known] * arm[known] / width[known]).max(initial=0.0))
     words = f"sliding on an interface takes {ratio:.0e} times the push that tips a block on it"
     return [words] if ratio > FAR_APART else []
+
+
+NOT_CHECKED = (
+    "that the history is that of the loading was not checked: mbla verify --again follows paths of elastic joints anew"
+)
+
+NOT_FOLLOWED = "that the rows of a pushover are those of its way was not checked: mbla verify --again follows it anew"
+
+
+def not_checked(results: Results) -> tuple[str, ...]:
+    """That paths of elastic joints were not followed anew, where there are any."""
+    found = results.paths_again is None and any(case.by_path for case in results.cases)
+    return (NOT_CHECKED,) * found
+
+
+def not_followed(results: Results) -> tuple[str, ...]:
+    """That pushovers were not followed anew, where there are any."""
+    pushed = (case.solution.further.pushover.rows is not None for case in results.cases)
+    return (NOT_FOLLOWED,) * (results.pushovers_again is None and any(pushed))
 
 
 def remarks_of_run(cases: Sequence[CaseResult]) -> tuple[str, ...]:

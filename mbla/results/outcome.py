@@ -8,7 +8,7 @@ Everything that shows figures (listing, JSON, summary, pictures) asks here, so t
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 import numpy as np
 
@@ -240,6 +240,11 @@ def notices_of(results: Results) -> tuple[Notice, ...]:
 
 def _series(case: CaseResult) -> str | None:
     return case.load_case.question.series
+
+
+def distinct(names: Iterable[str]) -> list[str]:
+    """Each once, in the order of their first appearance, none empty."""
+    return [name for name in dict.fromkeys(names) if name]
 
 
 # --- The figure that answers a case ---------------------------------------------------------------------------------

@@ -25,7 +25,7 @@ from scipy.special import betaincinv
 
 from mbla.arrays import IntArray
 from mbla.results.listing.text import sentence, table
-from mbla.results.record.keys import Key
+from mbla.results.record.objects import Key
 from mbla.results.tables.formats import csv_text
 from mbla.sweeps.answers import answers_of
 from mbla.sweeps.design.design import header_of

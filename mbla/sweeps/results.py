@@ -16,7 +16,8 @@ from typing import Any
 from mbla.deck.suggestions import did_you_mean, listed
 from mbla.deck.units import Units
 from mbla.results.quantities.quantity import unit_text
-from mbla.results.record.keys import RUN_RECORD, Key
+from mbla.results.record.json_record import RUN
+from mbla.results.record.objects import Key, keys_of
 from mbla.sweeps.plan import Plain
 from mbla.sweeps.tables.sweep_table import SweepColumn
 
@@ -165,7 +166,7 @@ def _described() -> tuple[tuple[str, re.Pattern[str], Key], ...]:
     Item 0 of lists, NAME where the deck names keys, which may have full stops in them.
     """
     found = []
-    for key in RUN_RECORD:
+    for key in keys_of(RUN):
         owner = next((owner for owner in OWNERS if key.path.startswith(owner)), "")
         path = key.path.removeprefix(owner)
         if owner or path.partition(".")[0] in OF_RUN:

@@ -11,11 +11,14 @@ from pathlib import Path
 
 from mbla.deck.units import Units
 from mbla.results.hdf5.layout import ATTRIBUTES
-from mbla.results.quantities.quantity import NOT_VERIFIED, unit_text
+from mbla.results.quantities.quantity import NOT_VERIFIED, Quantity, unit_text
 from mbla.results.quantities.registry import STORED
-from mbla.results.record.keys import RECORD, Key
-from mbla.results.tables.tables import tables_page
-from mbla.results.vtu.arrays import arrays_table
+from mbla.results.record import check_record
+from mbla.results.record.json_record import RUN
+from mbla.results.record.objects import Key, keys_of
+from mbla.results.tables.table import unit_in
+from mbla.results.tables.tables import TABLES
+from mbla.results.vtu.arrays import COLUMNS, OTHERS, names_of_arrays
 from mbla.sweeps.interaction.study import INTERACT_RECORD
 from mbla.sweeps.tables.sweep_json import SWEEP_RECORD
 from mbla.sweeps.tables.sweep_table import AFTER, POINT, STATE
@@ -24,6 +27,31 @@ PAGE = Path(__file__).parents[2] / "schemas" / "results.md"
 
 OWN_WORDS = "parameters of the design, in the order of the sweep file, with their angles where they are directions"
 RESULT_WORDS = "results, load case by load case: `CASE.` stands before the key path where several are solved"
+
+
+RECORD: tuple[Key, ...] = (
+    *keys_of(RUN),
+    *keys_of(check_record.MODEL, "model."),
+    Key("needs", "object", "`mbla check`: what reaches the solver, by load case"),
+    Key("needs.*", "object", "of a load case"),
+    Key("needs.*.*", "integer", "counts by name"),
+    Key("needs.*.solver", "string", "who solves its programs"),
+    *keys_of(check_record.NEEDS, "needs.*."),
+)
+"""keys of the record of a run, and those of ``mbla check`` alone"""
+CELLS = {
+    "blocks": "blocks as polyhedra, in their order; no two share a point",
+    "frames": "(…_frame_NNN.vtu) the same after a finite motion, from as built to as drawn, which STEM_CASE.pvd plays; "
+    "(…_pushed_NNN.vtu) where they are at the steps of a pushover, which STEM_CASE_pushed.pvd plays",
+    "contacts": "contact points as vertices",
+    "interfaces": "interfaces as polygons, by their outer boundary; holes are not drawn, areas and forces count them",
+    "thrust": "points of application of resultants as vertices, outside a joint its edge; thrust lines between them",
+    "hinges": "axes of interfaces that open about one, as lines where they stay closed; about a corner as points",
+    "loads": "loads and reactions as vertices where they act",
+    "ties": "ties, struts and rings as lines, one for each stretch; strips and fill as vertices where they act",
+    "supports": "ground as slabs under what stands on it, fixed blocks, guided blocks, as polyhedra",
+}
+"""files by what their names end in, and their cells"""
 
 
 def attributes_table() -> str:
@@ -44,9 +72,42 @@ def layout_table() -> str:
     return "\n".join(lines) + "\n"
 
 
+def described(file: str, on: str) -> dict[str, Quantity]:
+    """Every array that a file may hold, by name; one without forces or without a mechanism holds fewer."""
+    quantities: Sequence[Quantity] = [each for each in COLUMNS.get((file, on), ()) if file in each.files]
+    return {name: each for each in (*quantities, *OTHERS.get((file, on), ())) for name, _ in names_of_arrays(each)}
+
+
+def arrays_table() -> str:
+    """The tables of schemas/results.md; units as in a deck in m, N, kg."""
+    lines = ["| file | cells |", "|---|---|"]
+    lines += [f"| …_{file}.vtu | {cells} |" for file, cells in CELLS.items()]
+    lines += ["", "| file, on | array | components | units | content |", "|---|---|---|---|---|"]
+    for file in CELLS:
+        for on in ("points", "cells"):
+            for name, each in described(file, on).items():
+                count = 3 if "axis" in each.dims else 1
+                unit = unit_text(each.unit, Units())
+                lines.append(f"| {file}, {on} | `{name}` | {count} | {unit} | {each.words} |")
+    return "\n".join(lines) + "\n"
+
+
+def tables_page() -> str:
+    """Every table with its columns, as it stands in schemas/results.md; units as in a deck in m, N, kg."""
+    lines: list[str] = []
+    for kind in TABLES.values():
+        lines += [f"### `{kind.name}`", "", f"One row for {kind.words}.", ""]
+        lines += ["| column | type | unit | meaning |", "|---|---|---|---|"]
+        for column in kind.columns:
+            lines.append(f"| `{column.name}` | {column.kind} | {unit_in(column, Units()) or '–'} | {column.words} |")
+        lines.append("")
+    return "\n".join(lines)
+
+
 def keys_page(keys: Sequence[Key]) -> str:
     """Keys of a record as a Markdown table."""
-    rows = [f"| `{path}` | {kind} | {words} |" for path, kind, words in (key.item for key in keys)]
+    units = {key: "" if key.unit == "1" else f" [{unit_text(key.unit, Units())}]" for key in keys}
+    rows = [f"| `{key.path}` | {key.kind}{units[key]} | {key.words} |" for key in keys]
     return "\n".join(["| key | type | meaning |", "|---|---|---|", *rows]) + "\n"
 
 

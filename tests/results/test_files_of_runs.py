@@ -21,10 +21,10 @@ from mbla.results.quantities.registry import STORED
 from mbla.results.record.check_record import check_json
 from mbla.results.record.json_record import results_json
 from mbla.results.record.json_values import json_line
-from mbla.results.record.keys import RECORD
 from mbla.run import RunOptions, run
 from tests.decks.folder import BENCHMARKS
 from tests.results.json_keys import values_below
+from tests.results.results_page import RECORD
 from tests.results.synthetic import full_results
 
 ROOT = Path(__file__).parents[2]

@@ -5,21 +5,16 @@ from __future__ import annotations
 import math
 
 from mbla.model.model import LoadCase, Model
+from mbla.results.findings import not_checked, not_followed
 from mbla.results.listing.text import counted, number
 from mbla.results.listing.verdict_words import LEAST_OFF, load_factor_words
 from mbla.results.results import PathAgain, PushoverAgain, Results
-
-NOT_CHECKED = (
-    "that the history is that of the loading was not checked: mbla verify --again follows paths of elastic joints anew"
-)
-
-NOT_FOLLOWED = "that the rows of a pushover are those of its way was not checked: mbla verify --again follows it anew"
 
 
 def pushovers_words(results: Results) -> tuple[str, ...]:
     """Sentences on the pushovers that a verification followed anew, or that it did not."""
     if results.pushovers_again is None:
-        return (NOT_FOLLOWED,) if any(case.solution.further.pushover.rows is not None for case in results.cases) else ()
+        return not_followed(results)
     cases = {case.load_case.name: case.load_case for case in results.cases}
     return tuple(
         f"{again.case}: {pushover_words(results.model, cases[again.case], again)}"
@@ -43,7 +38,7 @@ def pushover_words(model: Model, load_case: LoadCase, again: PushoverAgain) -> s
 def history_words(results: Results) -> tuple[str, ...]:
     """Sentences on the paths that a verification followed anew, or that it did not."""
     if results.paths_again is None:
-        return (NOT_CHECKED,) if any(case.by_path for case in results.cases) else ()
+        return not_checked(results)
     followed = {path.case for path in results.paths_again}
     words = [
         f"{path.case}: {path_words(results.model, case.load_case, path)}"

@@ -61,7 +61,7 @@ def block(scene: Scene) -> IntArray:
     return np.arange(len(scene.model.blocks))
 
 
-@SCENE.quantity("table", dims="block", kind="text")
+@SCENE.quantity("table", dims="block")
 def block_name(scene: Scene) -> Values:
     """Group and index, as selectors write it."""
     return as_text([scene.model.blocks.name(block) for block in range(len(scene.model.blocks))])

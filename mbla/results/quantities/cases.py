@@ -23,7 +23,7 @@ CHECKS = Group[Checks](lambda scene: scene.solved.checks, file="cases/*", table=
 
 CASES.fields(
     CaseResult,
-    status=Field("status of the case after verification", files="table json"),
+    status=Field("status of the case after verification", rule="open", files="table json"),
 )
 
 
@@ -35,23 +35,26 @@ def claimed_status(solution: Solution) -> str:
 
 SOLUTION.fields(
     Solution,
-    reason=Field("why it is not plainly solved, in words", unverified="words", files="table json"),
+    reason=Field("why it is not plainly solved, in words", rule="open", unverified="words", files="table json"),
 )
 
 
 @SHOWN.quantity("table json", dims="sentence")
-def remarks(case: CaseResult) -> Sequence[Message]:
+def remarks(case: CaseResult) -> Sequence[str]:
     """What a reader of the figure must know."""
     return case.solution.remarks
 
 
 SOLUTION.fields(
     Solution,
-    flow_rule=Field("flow rule of load_factor, contact_forces and mechanism", files="table json"),
+    flow_rule=Field("flow rule of load_factor, contact_forces and mechanism", rule="open", files="table json"),
     scheme=Field(
-        "how a flow without normality was solved; empty: associative", unverified="course", files="table json"
+        "how a flow without normality was solved; empty: associative",
+        rule="open",
+        unverified="course",
+        files="table json",
     ),
-    contact_model=Field("concave, or convex: interface resultants", files="table json"),
+    contact_model=Field("concave, or convex: interface resultants", rule="open", files="table json"),
     stress_blocks=Field("1 where interfaces crush as fields of stress do"),
 )
 
@@ -100,6 +103,7 @@ SOLUTION.fields(
     torsion_end=Field(
         "why the path with torsion of uniform pressure ended: falls, flat, far; else its load factor is "
         "borne at least; empty without one",
+        rule="open",
         unverified="course",
         files="table json",
     ),
@@ -128,6 +132,7 @@ SOLUTION.fields(
     Solution,
     path_end=Field(
         "why the path ended: falls, flat, far; or how it was lost; empty without one",
+        rule="open",
         unverified="course",
         files="table json",
     ),
@@ -153,9 +158,9 @@ def angle(case: CaseResult) -> float | None:
 
 
 @SHOWN.quantity("table json", dims="end", unit="degree")
-def angle_bounds(case: CaseResult) -> tuple[float, float] | None:
+def angle_bounds(case: CaseResult) -> list[float | None] | None:
     """Tilting table: angle certainly borne, angle certainly not."""
-    return answer_bounds(case) if case.load_case.question.column == "angle" else None
+    return list(answer_bounds(case)) if case.load_case.question.column == "angle" else None
 
 
 @SHOWN.quantity("table json", unit="length")
@@ -227,7 +232,7 @@ CHECKS.fields(
 
 
 @SHOWN.quantity("table json", dims="sentence")
-def failures(case: CaseResult) -> Sequence[Message]:
+def failures(case: CaseResult) -> Sequence[str]:
     """What is not within tolerance, in words."""
     return case.checks.failures
 

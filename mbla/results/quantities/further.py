@@ -41,7 +41,7 @@ def falls(standing: StandingResult) -> list[int]:
 
 STANDING.fields(
     StandingResult,
-    reason=Field("why, in words", unverified="words"),
+    reason=Field("why, in words", rule="open", unverified="words"),
     contact_forces=Field(
         "contact forces, and behind them those of ties, under the dead load alone, from the stress-free assembly",
         "carrier direction",

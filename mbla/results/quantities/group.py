@@ -14,10 +14,12 @@ it is refused when the module is imported.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Sequence, Sized
+from dataclasses import dataclass
+from operator import attrgetter
 from typing import Any, Generic, TypeVar
 
+from mbla.arrays import FloatArray
 from mbla.results.quantities.quantity import UNVERIFIED, Kind, Quantity, UnitKind
 
 Owner = TypeVar("Owner")
@@ -26,29 +28,27 @@ Function = TypeVar("Function", bound=Callable[..., Any])
 DECLARED: list[Quantity] = []
 """every quantity of the result file and of tables, in the order of declaration"""
 KINDS: dict[str, Kind] = {
-    "float": "float",
-    "FloatArray": "float",
-    "list[float]": "float",
-    "tuple[float, float]": "float",
-    "int": "int",
-    "IntArray": "int",
-    "list[int]": "int",
-    "bool": "bool",
-    "BoolArray": "bool",
-    "list[bool]": "bool",
+    **dict.fromkeys(("float", "FloatArray", "list[float]", "tuple[float, float]", "list[float | None]"), "float"),
+    **dict.fromkeys(("int", "IntArray", "list[int]"), "int"),
+    **dict.fromkeys(("bool", "BoolArray", "list[bool]"), "bool"),
     "ByteArray": "byte",
+    **dict.fromkeys(("str", "list[str]", "tuple[str, ...]", "Sequence[str]", "Values", "Message"), "text"),
+    **dict.fromkeys(
+        ("Literal['notice', 'warning']", "Status", "Standing", "Side", "ReductionOutcome", "TieState", "CurveEnd"), "text"
+    ),
 }
-"""types of quantities by those of their values; others are texts"""
+"""kinds of quantities by the types of their values; those of the JSON record may have others"""
 
 
 @dataclass(frozen=True)
 class Field:
-    """What a field of a dataclass is as a quantity; see :class:`Quantity`.
+    """What a field or property of a dataclass is as a quantity; see :class:`Quantity`.
 
     dims      : without that of the rows where the owner is a list
     rule      : ``open``, ``index of DIMENSION`` or ``start of DIMENSION``
-    part, unverified, table : None: as the group says; ``{}`` in a part stands for that of the group
+    part, unverified : None: as the group says; ``{}`` in a part stands for that of the group
     attribute : the field, where the quantity has another name
+    by        : what is told of its value, where that is not all of it: ``count``, ``total``
     """
 
     words: str
@@ -59,9 +59,12 @@ class Field:
     unverified: str | None = None
     proved: tuple[str, ...] = ()
     files: str = ""
-    table: str | None = None
     attribute: str = ""
+    by: Callable[[Any], Any] | None = None
     names: Callable[[Any], Sequence[str]] | None = None
+    items: tuple[str, ...] = ()
+    inside: Group[Any] | None = None
+    missing: bool = False
 
 
 class Group(Generic[Owner]):
@@ -94,7 +97,7 @@ class Group(Generic[Owner]):
         self.quantities: list[Quantity] = []
 
     def quantity(
-        self, files: str = "", *, like: Quantity | None = None, name: str = "", kind: Kind | None = None, **said: Any
+        self, files: str = "", *, like: Quantity | None = None, name: str = "", **said: Any
     ) -> Callable[[Function], Function]:
         """Declare the function that follows; ``like``: it is what another one is; ``said``: see :class:`Field`.
 
@@ -102,32 +105,35 @@ class Group(Generic[Owner]):
         """
 
         def declare(function: Function) -> Function:
-            own = Field(**{"words": words_of(function), "files": files} | said)
-            found = self._described(name or function.__name__, kind or _kind(function.__annotations__["return"]), own)
+            what = {"words": words_of(function), "files": files}
             if like is not None:
-                found = replace(found, kind=like.kind, words=like.words, unit=like.unit, dims=like.dims)
-            self._add(found, function)
+                what |= {"words": like.words, "unit": like.unit, "dims": " ".join(like.dims)}
+            self._add(name or function.__name__, function.__annotations__["return"], Field(**what | said), function)
             return function
 
         return declare
 
     def fields(self, record: type, **fields: Field) -> dict[str, Quantity]:
-        """Declare fields of a dataclass, which the owner or each of its items is."""
-        known = record.__dataclass_fields__  # type: ignore[attr-defined]
-        found = {}
-        for name, own in fields.items():
-            attribute = own.attribute or name
-            described = self._described(name, _kind(known[attribute].type), own)
-            found[name] = self._add(replace(described, record=record, attribute=attribute), _getter(attribute))
-        return found
+        """Declare fields and properties of a dataclass, which the owner or each of its items is."""
+        return {name: self._field(record, name, own) for name, own in fields.items()}
 
-    def _described(self, name: str, kind: Kind, said: Field) -> Quantity:
+    def _field(self, record: type, name: str, said: Field) -> Quantity:
+        attribute, by = said.attribute or name, said.by
+        known = record.__dataclass_fields__.get(attribute)  # type: ignore[attr-defined]
+        if by is not None:
+            return self._add(name, by.__annotations__["return"], said, lambda of: by(getattr(of, attribute)))
+        kind = vars(record)[attribute].fget.__annotations__["return"] if known is None else known.type
+        return self._add(name, kind, said, attrgetter(attribute), record=record, attribute=attribute)
+
+    def _add(self, name: str, annotation: str, said: Field, of: Callable[[Any], Any], **more: Any) -> Quantity:
         rule, _, dimension = said.rule.partition(" of ")
-        return Quantity(
-            name=name,
-            kind=kind,
-            words=said.words,
-            unit=said.unit,
+        one = self.rows is None
+        unverified = self.unverified if said.unverified is None else said.unverified
+        quantity = Quantity(
+            name,
+            KINDS.get(annotation.removesuffix(" | None"), "object"),
+            said.words,
+            said.unit,
             dims=(*([self.rows] if self.rows else []), *said.dims.split()),
             group=self.file,
             asked=self.asked,
@@ -135,36 +141,41 @@ class Group(Generic[Owner]):
             start_of=dimension if rule == "start" else "",
             open=rule == "open",
             part=self.part if said.part is None else said.part.format(self.part),
-            unverified=(UNVERIFIED | {"": ""})[self.unverified if said.unverified is None else said.unverified],
+            unverified=UNVERIFIED[unverified] if unverified else "",
             proved=said.proved,
-            table=(self.table if said.table is None else said.table) if said.files else "",
+            table=self.table if said.files else "",
             files=tuple(said.files.split()),
             names=said.names,
+            of=_of_one(self.owner, of) if one else of,
+            stored=_of_one(self.claim, of) if one else _of_each(self.claim, of),
+            annotation=annotation,
+            items=said.items,
+            inside=said.inside,
+            missing=said.missing,
+            **more,
         )
-
-    def _add(self, described: Quantity, of: Callable[[Any], Any]) -> Quantity:
-        if self.rows is None:
-            value, stored = _of_one(self.owner, of), _of_one(self.claim, of)
-        else:
-            value, stored = of, _of_each(self.claim, of)
-        quantity = replace(described, of=value, stored=stored)
         self.quantities.append(quantity)
-        DECLARED.append(quantity)
+        if quantity.group or quantity.table:
+            if quantity.kind == "object":
+                raise TypeError(f"{name}: {annotation} is no type of what files and tables hold")
+            DECLARED.append(quantity)
         return quantity
+
+
+def count(items: Sized) -> int:
+    """How many there are."""
+    return len(items)
+
+
+def total(values: FloatArray) -> float:
+    """All of them together."""
+    return float(values.sum())
 
 
 def words_of(function: Callable[..., Any]) -> str:
     """A docstring as words: without the full stop, and without the capital letter but of what has several."""
     words = " ".join(str(function.__doc__).split()).removesuffix(".")
     return words if words[1:2].isupper() else words[:1].lower() + words[1:]
-
-
-def _kind(annotation: str) -> Kind:
-    return KINDS.get(annotation.removesuffix(" | None"), "text")
-
-
-def _getter(attribute: str) -> Callable[[Any], Any]:
-    return lambda owner: getattr(owner, attribute)
 
 
 def _of_one(owner: Callable[[Any], Any], of: Callable[[Any], Any]) -> Callable[[Any], Any]:

@@ -54,7 +54,7 @@ CONTACTS.fields(
 )
 
 
-@SCENE.quantity("table", dims="interface pair", kind="text")
+@SCENE.quantity("table", dims="interface pair")
 def body_names(scene: Scene) -> Values:
     """Names of bodies a and b."""
     bodies = range(len(scene.model.blocks) + len(scene.model.grounds))

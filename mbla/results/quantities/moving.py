@@ -6,11 +6,12 @@ from mbla.results.collapse.collapse import Collapse
 from mbla.results.collapse.interface_modes import InterfaceMode, InterfaceMotion
 from mbla.results.collapse.rigid_parts import moving_blocks as free_blocks_that_move
 from mbla.results.collapse.rigid_parts import moving_share
-from mbla.results.quantities.group import Group
+from mbla.results.quantities.group import Field, Group, count
 from mbla.results.quantities.points import figure_names
 from mbla.results.record.scene import FIGURES, Scene
 
 SCENE = Group[Scene](lambda scene: scene, table="cases")
+_MOVING = Group[Scene](lambda scene: None if scene.collapse is None else scene, table="cases")
 _COLLAPSE = Group[Collapse](lambda scene: scene.collapse, table="cases")
 _INTERFACES = Group[InterfaceMotion](lambda scene: scene.interfaces, table="cases")
 
@@ -21,22 +22,19 @@ def figures(scene: Scene) -> int:
     return FIGURES.index(scene.figures)
 
 
-@SCENE.quantity("table")
-def moving_weight_share(scene: Scene) -> float | None:
+@_MOVING.quantity("table")
+def moving_weight_share(scene: Scene) -> float:
     """Share of the weight of the free blocks that moves."""
-    return None if scene.collapse is None else moving_share(scene.model, scene.collapse.parts)
+    return moving_share(scene.model, scene.parts)
 
 
-@SCENE.quantity("table")
-def moving_blocks(scene: Scene) -> int | None:
+@_MOVING.quantity("table")
+def moving_blocks(scene: Scene) -> int:
     """Free blocks that move."""
-    return None if scene.collapse is None else free_blocks_that_move(scene.model, scene.collapse.parts)
+    return free_blocks_that_move(scene.model, scene.parts)
 
 
-@_COLLAPSE.quantity("table")
-def moving_parts(collapse: Collapse) -> int:
-    """Rigid parts that move."""
-    return len(collapse.motions)
+_COLLAPSE.fields(Collapse, moving_parts=Field("rigid parts that move", attribute="motions", by=count, files="table"))
 
 
 def _declare_mode(mode: InterfaceMode) -> None:

@@ -9,7 +9,7 @@ from typing import Any, Literal, TypeAlias
 
 from mbla.deck.units import Units
 
-Kind = Literal["float", "int", "bool", "byte", "text"]
+Kind = Literal["float", "int", "bool", "byte", "text", "object"]
 UnitKind: TypeAlias = str
 UNITS: dict[UnitKind, str] = {
     "1": "1",
@@ -78,16 +78,20 @@ class Quantity:
     asked    : of a load case, it is there whether that is solved or not
     index_of : for indices: the dimension they count (``body`` for blocks and then grounds)
     start_of : for offsets of ragged arrays: the dimension they divide
-    open     : non-finite values are allowed: nan for "nothing to say", inf for "unlimited"
+    open     : non-finite values are allowed: nan for "nothing to say", inf for "unlimited"; an empty text for nothing
     part     : quantities of one part are all there or all missing; empty: always there
     unverified : kind of statement, where the run alone can make it and ``mbla verify`` does not verify it
     proved   : texts that are verified all the same, as others prove them
     table    : whose column it is; empty: none
     files    : what the column stands in: ``table``, ``json``, and meshes by their kind
     names    : what tables say in the place of numbers, one for each
-    field    : of the dataclass that it is the field of
+    record, attribute : the dataclass, and its field, that it is
     of       : its value, from what it belongs to; None where there is none
     stored   : the value in the result file, from what that group belongs to
+    annotation : type of that value, as it is written
+    items    : in the JSON record, what each item of the value is, and what each of the items of that is
+    inside   : in the JSON record, the group of quantities that it is, or that each of its items is
+    missing  : in the JSON record it is left out where its value is empty
     """
 
     name: str
@@ -110,6 +114,10 @@ class Quantity:
     attribute: str = ""
     of: Callable[[Any], Any] = field(default=lambda _: None, repr=False)
     stored: Callable[[Any], Any] = field(default=lambda _: None, repr=False)
+    annotation: str = ""
+    items: tuple[str, ...] = ()
+    inside: Any = field(default=None, repr=False)
+    missing: bool = False
 
     @property
     def path(self) -> str:

@@ -1,8 +1,8 @@
-"""All quantities: the modules that declare them, and what the renderers take of them."""
+"""All quantities: the modules that declare them are imported here, and what the renderers take of them."""
 
 from __future__ import annotations
 
-from mbla.results.quantities import (
+from mbla.results.quantities import (  # noqa: F401
     answers,
     blocks,
     cases,
@@ -22,11 +22,6 @@ from mbla.results.quantities import (
 from mbla.results.quantities.group import DECLARED
 from mbla.results.quantities.quantity import Quantity
 
-MODULES = (
-    *(run, model, blocks, ties, interfaces, points),
-    *(loads, cases, moving, answers, further, solving, steps, supports, series),
-)
-"""what declares quantities"""
 OF_RUN = tuple(each for each in DECLARED if each.group.split("/")[0] in ("deck", "notices", "provenance"))
 """those of the result file that belong to results as a whole"""
 OF_MODEL = tuple(each for each in DECLARED if each.group.split("/")[0] in ("model", "contacts"))
@@ -49,4 +44,5 @@ def held(record: type, group: str) -> dict[str, str]:
 
 
 CASE_COLUMNS, BLOCK_COLUMNS = columns_of("cases"), columns_of("blocks")
+OF_CASE = {each.name: each for each in CASE_COLUMNS}
 INTERFACE_COLUMNS, POINT_COLUMNS = columns_of("interfaces"), columns_of("points")

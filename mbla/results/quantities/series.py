@@ -72,7 +72,7 @@ def distance(position: Position) -> float:
     return position.travel.distance
 
 
-@POSITIONS.quantity("table")
+@POSITIONS.quantity("table", rule="open")
 def block(position: Position) -> str:
     """The block that carries it; none: it is off the path and does not act."""
     carrier = int(position.travel.blocks[0])

@@ -1,40 +1,39 @@
-"""What a load case has in the JSON record: reaction, standing, solver, reductions, assessment, ties, supports."""
+"""What a load case has in the JSON record: reaction, standing, solver, reductions, assessment, supports."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.program.reductions import ProgramSize, ReductionStep
 from mbla.results.assessment import Assessment
-from mbla.results.assessment import Figure as AssessmentFigure
-from mbla.results.collapse.ties import TieRow
-from mbla.results.listing.sections.figures import distinct
-from mbla.results.outcome import RESIDUALS, answer_bounds, answer_of
-from mbla.results.quantities import further, solving, steps, ties
-from mbla.results.quantities.registry import STORED_BY_PATH
-from mbla.results.record.objects import Item, Object
+from mbla.results.outcome import RESIDUALS, answer_bounds, answer_of, distinct
+from mbla.results.quantities import further, solving
+from mbla.results.quantities.group import Field
+from mbla.results.quantities.registry import OF_CASE, STORED_BY_PATH
+from mbla.results.record.objects import Object
 from mbla.results.record.scene import Scene
 from mbla.solution.further.geometric_safety.geometric_safety import GeometricSafety
-from mbla.solution.further.sensitivity.slopes import Slope
-from mbla.solution.pushover.curve_rows import CurveRow
-from mbla.solution.solution import PathByStiffness, PathPoint
 
-REACTION, BEST, STANDING, SOLVER, SIZE = (
-    Object[Scene](),
-    Object[Scene](),
-    Object[Scene](),
-    Object[Scene](),
-    Object[Scene](),
+REACTION = Object[Scene](owner=lambda scene: scene if scene.solved.load_case.question.group == "reaction" else None)
+BEST = Object[Scene](
+    replace(OF_CASE["best_iterate_load_factor"], name="load_factor", words="its load factor, which is not a result"),
+    owner=lambda scene: None if scene.best is None else scene,
 )
-REDUCTION, PROGRAM_SIZE = Object[ReductionStep](), Object[ProgramSize]()
-PATH, OTHER_PATH = Object[PathPoint](), Object[PathByStiffness]()
-CURVE, SENSITIVITY = Object[CurveRow](), Object[Slope]()
-GEOMETRIC_SAFETY, ASSESSMENT, FIGURE = Object[Scene](), Object[Assessment](), Object[AssessmentFigure]()
-TIE, REACTIONS, TIME = Object[TieRow](), Object["Reactions"](), Object[Scene]()
-WRENCH = Object[FloatArray]()
+STANDING = Object[Scene](
+    STORED_BY_PATH["cases/*/standing/verdict"],
+    owner=lambda scene: None if scene.solved.solution.standing is None else scene,
+)
+SOLVER = Object[Scene]()
+TIME = Object[Scene](
+    replace(OF_CASE["seconds"], name="total", open=True), replace(OF_CASE["solver_seconds"], name="solver", open=True)
+)
+REDUCTION, PROGRAM_SIZE = Object[ReductionStep](*solving.REDUCTIONS.quantities), Object[ProgramSize]()
+GEOMETRIC_SAFETY = Object[GeometricSafety](owner=further.GEOMETRIC_SAFETY.owner)
+ASSESSMENT = Object[Assessment](owner=lambda scene: scene.solved.assessment)
+REACTIONS, WRENCH = Object["Reactions"](), Object[FloatArray]()
 
 
 def residuals_of(scene: Scene) -> dict[str, float | None]:
@@ -79,19 +78,7 @@ def kind(scene: Scene) -> str:
     return scene.solved.load_case.question.kind
 
 
-@BEST.key()
-def load_factor(scene: Scene) -> float | None:
-    """Its load factor, which is not a result."""
-    return None if scene.best is None else scene.best.load_factor
-
-
-@BEST.key("as in `residuals`", name="residuals")
-def residuals_of_best(scene: Scene) -> dict[str, float | None]:
-    """As `residuals`."""
-    return residuals_of(scene)
-
-
-STANDING.quantities(STORED_BY_PATH["cases/*/standing/verdict"])
+BEST.key("as in `residuals`", name="residuals", words="as `residuals`")(residuals_of)
 
 
 @STANDING.key()
@@ -101,7 +88,7 @@ def block(scene: Scene) -> str | None:
     return None if found is None or found.block is None else scene.model.blocks.name(found.block)
 
 
-STANDING.quantities(STORED_BY_PATH["cases/*/standing/reason"], null=("reason",))
+STANDING.quantities.append(STORED_BY_PATH["cases/*/standing/reason"])
 
 
 @SOLVER.key()
@@ -122,86 +109,24 @@ def factorization(scene: Scene) -> list[str]:
     return distinct(program.factorization for program in scene.solved.solution.programs)
 
 
-SIZE.quantities(*solving.SIZE.quantities)
-REDUCTION.quantities(*solving.REDUCTIONS.quantities)
-
-
-@REDUCTION.key(inside=PROGRAM_SIZE)
-def before(step: ReductionStep) -> ProgramSize:
-    """Programs with live load before it."""
-    return step.before
-
-
-@REDUCTION.key(inside=PROGRAM_SIZE)
-def after(step: ReductionStep) -> ProgramSize:
-    """Programs with live load after it."""
-    return step.after
-
-
-PROGRAM_SIZE.fields(ProgramSize, **{name: Item(words) for name, words in solving.SIZES.items()})
-PATH.quantities(*solving.PATH.quantities)
-OTHER_PATH.quantities(*solving.PATH_BY_STIFFNESS.quantities)
-CURVE.quantities(*steps.CURVE.quantities)
-SENSITIVITY.quantities(*further.SENSITIVITY.quantities)
-
-
-def _safety(scene: Scene) -> GeometricSafety:
-    found = scene.solved.solution.further.geometric_safety
-    assert found is not None  # what makes it an object
-    return found
-
-
-@GEOMETRIC_SAFETY.key()
-def factor(scene: Scene) -> float:
-    """The factor that forces show: the size of the joints over the least one."""
-    return _safety(scene).factor
-
-
-@GEOMETRIC_SAFETY.key()
-def most(scene: Scene) -> float | None:
-    """A factor that a mechanism shows not to be reached; null where none is known."""
-    return _safety(scene).most
-
-
-GEOMETRIC_SAFETY.quantities(
-    STORED_BY_PATH["cases/*/geometric_safety/solves"], STORED_BY_PATH["cases/*/geometric_safety/verified"]
+PROGRAM_SIZE.fields(ProgramSize, **{name: Field(words) for name, words in solving.SIZES.items()})
+REDUCTION.fields(
+    ReductionStep,
+    before=Field("programs with live load before it", inside=PROGRAM_SIZE),
+    after=Field("programs with live load after it", inside=PROGRAM_SIZE),
 )
-
-
-@ASSESSMENT.key()
-def code(assessment: Assessment) -> str:
-    """In words."""
-    return assessment.code
-
-
-@ASSESSMENT.key("one of them", inside=FIGURE)
-def figures(assessment: Assessment) -> list[AssessmentFigure]:
-    """Every figure on the way."""
-    return list(assessment.figures)
-
-
-@ASSESSMENT.key("in words")
-def remarks(assessment: Assessment) -> list[str]:
-    """What stands against them."""
-    return list(assessment.remarks)
-
-
-FIGURE.quantities(*further.ASSESSMENT.quantities)
-
-
-@TIME.key(unit="time")
-def total(scene: Scene) -> float | None:
-    """Time of the solver stage."""
-    return scene.solved.solution.seconds
-
-
-@TIME.key(name="solver", unit="time")
-def time_of_programs(scene: Scene) -> float | None:
-    """Time of the programs in it."""
-    return float(sum(program.seconds for program in scene.solved.solution.programs))
-
-
-TIE.quantities(*ties.TIES.quantities)
+GEOMETRIC_SAFETY.fields(
+    GeometricSafety,
+    factor=Field("the factor that forces show: the size of the joints over the least one"),
+    most=Field("a factor that a mechanism shows not to be reached; null where none is known", rule="open"),
+)
+GEOMETRIC_SAFETY.quantities += further.GEOMETRIC_SAFETY.quantities[-2:]
+ASSESSMENT.fields(
+    Assessment,
+    code=Field("in words"),
+    figures=Field("every figure on the way", items=("one of them",), inside=further.ASSESSMENT),
+    remarks=Field("what stands against them", items=("in words",)),
+)
 
 
 @dataclass(frozen=True)
@@ -223,13 +148,13 @@ def supports(reactions: Reactions) -> dict[str, FloatArray]:
     return reactions.by_support
 
 
-@WRENCH.key("a component", unit="force")
+@WRENCH.key(dims="vector", unit="force")
 def force(wrench: FloatArray) -> FloatArray:
     """Resultant force."""
     return wrench[:3] + 0.0  # no -0.0
 
 
-@WRENCH.key("a component", unit="moment")
+@WRENCH.key(dims="vector", unit="moment")
 def moment(wrench: FloatArray) -> FloatArray:
     """Its moment about the origin."""
     return wrench[3:] + 0.0

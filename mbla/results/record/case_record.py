@@ -4,40 +4,35 @@ from __future__ import annotations
 
 from mbla.model.model import Model
 from mbla.program.reductions import ReductionStep
-from mbla.results.assessment import Assessment
 from mbla.results.collapse.mechanics import reactions_of
 from mbla.results.collapse.ties import TieRow, tie_rows
-from mbla.results.outcome import associative_of, dimension_of, result_of
+from mbla.results.outcome import associative_of, result_of
+from mbla.results.quantities import further, solving, steps
+from mbla.results.quantities import ties as quantities_of_ties
+from mbla.results.quantities.group import Field
 from mbla.results.quantities.registry import CASE_COLUMNS
 from mbla.results.record.case_parts import (
     ASSESSMENT,
     BEST,
-    CURVE,
     GEOMETRIC_SAFETY,
-    OTHER_PATH,
-    PATH,
     REACTION,
     REACTIONS,
     REDUCTION,
-    SENSITIVITY,
-    SIZE,
     SOLVER,
     STANDING,
-    TIE,
     TIME,
     Reactions,
     residuals_of,
 )
-from mbla.results.record.mechanism_json import MECHANISM, Mechanism
+from mbla.results.record.mechanism_json import MECHANISM
 from mbla.results.record.objects import Object
 from mbla.results.record.scene import Scene
 from mbla.results.results import CaseResult
-from mbla.solution.further.sensitivity.slopes import Slope
-from mbla.solution.pushover.curve_rows import CurveRow
-from mbla.solution.solution import PathByStiffness, PathPoint
+from mbla.solution.pushover.pushover import Pushover
 from mbla.solution.verification.statics import power
 
 CASE = Object[Scene]()
+_PUSHOVER = CASE.of(lambda scene: scene.solved.solution.further.pushover)
 
 
 @CASE.key()
@@ -46,19 +41,13 @@ def name(scene: Scene) -> str:
     return scene.solved.load_case.name
 
 
-CASE.columns(quantity for quantity in CASE_COLUMNS if "json" in quantity.files)
-
-
-@CASE.key(inside=REACTION)
-def reaction(scene: Scene) -> Scene | None:
-    """Settlement: reaction of the support; forces, or moments where it turns; objective: the force."""
-    return scene if scene.solved.load_case.question.group == "reaction" else None
-
-
-@CASE.key(inside=BEST)
-def best_iterate(scene: Scene) -> Scene | None:
-    """The best iterate where the case has no result."""
-    return None if scene.best is None else scene
+CASE.quantities += [quantity for quantity in CASE_COLUMNS if "json" in quantity.files]
+CASE.holds(
+    "reaction",
+    REACTION,
+    "settlement: reaction of the support; forces, or moments where it turns; objective: the force",
+)
+CASE.holds("best_iterate", BEST, "the best iterate where the case has no result")
 
 
 @CASE.key("factors acting together, each times this, add up to kinematic_bound at most")
@@ -67,16 +56,12 @@ def powers(scene: Scene) -> dict[str, float | None] | None:
     return powers_of(scene.model, scene.solved)
 
 
-@CASE.key("equilibrium, yield, tension, penetration, complementarity, slip")
-def residuals(scene: Scene) -> dict[str, float | None]:
-    """The first six of these once more."""
-    return residuals_of(scene)
-
-
-@CASE.key(inside=STANDING)
-def standing(scene: Scene) -> Scene | None:
-    """Assessment of the dead load alone."""
-    return None if scene.solved.solution.standing is None else scene
+CASE.key(
+    "equilibrium, yield, tension, penetration, complementarity, slip",
+    name="residuals",
+    words="the first six of these once more",
+)(residuals_of)
+CASE.holds("standing", STANDING, "assessment of the dead load alone")
 
 
 @CASE.key()
@@ -88,16 +73,8 @@ def certificate(scene: Scene) -> str | None:
     return "forces" if solution.lock is not None and solution.mechanics is None else None
 
 
-@CASE.key(inside=SOLVER)
-def solver(scene: Scene) -> Scene:
-    """Solvers of the programs."""
-    return scene
-
-
-@CASE.key(inside=SIZE)
-def size(scene: Scene) -> Scene | None:
-    """What reached the solver."""
-    return None if scene.solved.solution.size is None else scene
+CASE.holds("solver", SOLVER, "solvers of the programs")
+CASE.holds("size", solving.SIZE, "what reached the solver")
 
 
 @CASE.key("a reduction", inside=REDUCTION)
@@ -106,24 +83,15 @@ def reductions(scene: Scene) -> list[ReductionStep]:
     return list(scene.solved.solution.reductions)
 
 
-@CASE.key("a step", inside=PATH)
-def path(scene: Scene) -> list[PathPoint]:
-    """Steps of the path of elastic joints that was followed."""
-    return list(scene.solved.solution.path)
-
-
-@CASE.key("a path", inside=OTHER_PATH)
-def path_by_stiffness(scene: Scene) -> list[PathByStiffness]:
-    """Other paths that were followed, of joints of another stiffness in shear: two with accuracy: reference, one where
-    the stiffness may decide.
-    """
-    return list(scene.solved.solution.path_by_stiffness)
-
-
-@CASE.key("a step", inside=CURVE)
-def curve(scene: Scene) -> list[CurveRow]:
-    """Steps of the pushover."""
-    return list(scene.solved.solution.further.pushover.curve)
+CASE.holds("path", solving.PATH, "steps of the path of elastic joints that was followed", "a step")
+CASE.holds(
+    "path_by_stiffness",
+    solving.PATH_BY_STIFFNESS,
+    "other paths that were followed, of joints of another stiffness in shear: two with accuracy: reference, one where "
+    "the stiffness may decide",
+    "a path",
+)
+CASE.holds("curve", steps.CURVE, "steps of the pushover", "a step")
 
 
 @CASE.key("across, then along", unit="bedding")
@@ -133,58 +101,32 @@ def curve_stiffness(scene: Scene) -> list[float] | None:
     return None if rows is None else list(rows.stiffness)
 
 
-@CASE.key()
-def curve_end(scene: Scene) -> str:
-    """Why it ends; empty without one."""
-    return scene.solved.solution.further.pushover.curve_end
+_PUSHOVER.fields(
+    Pushover,
+    curve_end=Field("why it ends; empty without one"),
+    curve_end_error=Field("change of the displacement there with steps of twice the size", unit="length", rule="open"),
+    curve_last_error=Field("change of the load factor there with steps of twice the size", rule="open"),
+)
+CASE.holds(
+    "sensitivity",
+    further.SENSITIVITY,
+    "how the associative load factor changes with parameters; empty where the deck does not ask",
+    "a parameter",
+)
+CASE.holds(
+    "geometric_safety",
+    GEOMETRIC_SAFETY,
+    "by how much the joints may shrink about their middles before the dead load falls; null where the deck does not "
+    "ask",
+)
+CASE.holds("assessment", ASSESSMENT, "what a code says")
 
 
-@CASE.key(unit="length")
-def curve_end_error(scene: Scene) -> float | None:
-    """Change of the displacement there with steps of twice the size."""
-    return scene.solved.solution.further.pushover.curve_end_error
+CASE.holds("time", TIME, "what it took")
+CASE.holds("mechanism", MECHANISM, "how it fails; null where the case has no result")
 
 
-@CASE.key()
-def curve_last_error(scene: Scene) -> float | None:
-    """Change of the load factor there with steps of twice the size."""
-    return scene.solved.solution.further.pushover.curve_last_error
-
-
-@CASE.key("a parameter", inside=SENSITIVITY)
-def sensitivity(scene: Scene) -> list[Slope]:
-    """How the associative load factor changes with parameters; empty where the deck does not ask."""
-    return list(scene.solved.solution.further.sensitivity)
-
-
-@CASE.key(inside=GEOMETRIC_SAFETY)
-def geometric_safety(scene: Scene) -> Scene | None:
-    """By how much the joints may shrink about their middles before the dead load falls; null where the deck does not
-    ask.
-    """
-    return None if scene.solved.solution.further.geometric_safety is None else scene
-
-
-@CASE.key(inside=ASSESSMENT)
-def assessment(scene: Scene) -> Assessment | None:
-    """What a code says."""
-    return scene.solved.assessment
-
-
-@CASE.key(inside=TIME)
-def time(scene: Scene) -> Scene:
-    """What it took."""
-    return scene
-
-
-@CASE.key(inside=MECHANISM)
-def mechanism(scene: Scene) -> Mechanism | None:
-    """How it fails; null where the case has no result."""
-    found, case = result_of(scene.solved), scene.solved
-    return None if found is None else Mechanism(scene.assembly, case.load_case, found, dimension_of((case,)))
-
-
-@CASE.key("a tie", inside=TIE)
+@CASE.key("a tie", inside=quantities_of_ties.TIES)
 def ties(scene: Scene) -> list[TieRow]:
     """Ties and what they do at collapse."""
     return list(tie_rows(scene.model, result_of(scene.solved)))

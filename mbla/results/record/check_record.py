@@ -6,11 +6,12 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from mbla.program.reductions import ReductionStep
+from mbla.contacts.contacts import ContactReport
 from mbla.results.provenance import CaseNeeds
+from mbla.results.quantities.group import Field, count
 from mbla.results.record.case_parts import REDUCTION
 from mbla.results.record.json_record import results_json
-from mbla.results.record.objects import Object
+from mbla.results.record.objects import Object, json_of
 from mbla.results.results import Results
 
 
@@ -23,6 +24,7 @@ class JointUse:
 
 
 MODEL, JOINT, NEEDS = Object[Results](), Object[JointUse](), Object[CaseNeeds]()
+_REPORT = MODEL.of(lambda results: results.contacts.report)
 
 
 @MODEL.key("a load case")
@@ -37,34 +39,13 @@ def joints(results: Results) -> dict[str, JointUse]:
     return {name: JointUse(*use) for name, use in results.contacts.by_joint.items()}
 
 
-@JOINT.key()
-def interfaces(use: JointUse) -> int:
-    """Its interfaces."""
-    return use.interfaces
-
-
-@JOINT.key(unit="area")
-def area(use: JointUse) -> float:
-    """Their area."""
-    return use.area
-
-
-@MODEL.key()
-def slivers(results: Results) -> int:
-    """`mbla check`: common surfaces dropped as thinner than the tolerance."""
-    return len(results.contacts.report.slivers)
-
-
-@MODEL.key()
-def near_misses(results: Results) -> int:
-    """`mbla check`: near misses: pairs of bodies that nearly touch."""
-    return len(results.contacts.report.near_misses)
-
-
-@MODEL.key()
-def overlaps(results: Results) -> int:
-    """`mbla check`: pairs of blocks that overlap."""
-    return len(results.contacts.report.overlaps)
+JOINT.fields(JointUse, interfaces=Field("its interfaces"), area=Field("their area", unit="area"))
+_REPORT.fields(
+    ContactReport,
+    slivers=Field("`mbla check`: common surfaces dropped as thinner than the tolerance", by=count),
+    near_misses=Field("`mbla check`: near misses: pairs of bodies that nearly touch", by=count),
+    overlaps=Field("`mbla check`: pairs of blocks that overlap", by=count),
+)
 
 
 @MODEL.key("a block")
@@ -73,18 +54,18 @@ def isolated_blocks(results: Results) -> list[str]:
     return [results.model.blocks.name(int(block)) for block in results.contacts.report.isolated]
 
 
-@MODEL.key()
-def unsupported_parts(results: Results) -> int:
-    """`mbla check`: parts that reach no support."""
-    return len(results.contacts.report.unsupported)
-
-
-@NEEDS.key("a reduction", inside=REDUCTION)
-def reductions(needs: CaseNeeds) -> list[ReductionStep]:
-    """What each reduction left out, in the order in which they are applied."""
-    return list(needs.reductions)
-
-
+_REPORT.fields(
+    ContactReport,
+    unsupported_parts=Field("`mbla check`: parts that reach no support", attribute="unsupported", by=count),
+)
+NEEDS.fields(
+    CaseNeeds,
+    reductions=Field(
+        "what each reduction left out, in the order in which they are applied",
+        items=("a reduction",),
+        inside=REDUCTION,
+    ),
+)
 NOT_OF_CHECKS = ("cases", "series", "objectives", "files", "complete", "not_done")
 """keys of a run that a check has not"""
 
@@ -92,5 +73,5 @@ NOT_OF_CHECKS = ("cases", "series", "objectives", "files", "complete", "not_done
 def check_json(results: Results, needs: Mapping[str, CaseNeeds]) -> dict[str, Any]:
     """The record of a check: no cases; ``needs`` says by load case what reaches the solver."""
     record = {name: value for name, value in results_json(results).items() if name not in NOT_OF_CHECKS}
-    record["model"] = dict(record["model"]) | dict(MODEL.json(results))
-    return record | {"needs": {case: dict(own.counts) | dict(NEEDS.json(own)) for case, own in needs.items()}}
+    record["model"] = dict(record["model"]) | dict(json_of(MODEL, results))
+    return record | {"needs": {case: dict(own.counts) | dict(json_of(NEEDS, own)) for case, own in needs.items()}}

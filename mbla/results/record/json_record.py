@@ -9,24 +9,32 @@ from collections.abc import Sequence
 from typing import Any
 
 from mbla import __version__
+from mbla.contacts.contacts import ContactReport, Contacts
 from mbla.contacts.glue import solid_sizes
 from mbla.deck.units import Units
 from mbla.errors import Notice
-from mbla.results.findings import remarks_of_run
+from mbla.model.model import Model
+from mbla.model.solids.blocks import Blocks
+from mbla.results.findings import not_checked, not_followed, remarks_of_run
 from mbla.results.force_range import ForceRange, force_ranges_of
 from mbla.results.hdf5.content import unverified_kinds
-from mbla.results.listing.history_words import NOT_CHECKED, NOT_FOLLOWED, history_words, pushovers_words
 from mbla.results.outcome import dimension_of, notices_of, standing_of, unproved_words
+from mbla.results.quantities.group import Field, count, total
+from mbla.results.quantities.registry import STORED_BY_PATH
 from mbla.results.quantities.run import NOTICES
 from mbla.results.record.case_record import CASE
 from mbla.results.record.json_values import as_json
-from mbla.results.record.objects import Item, Object
+from mbla.results.record.objects import Object, json_of
 from mbla.results.record.scene import Scene, scene_of
 from mbla.results.record.series_record import OBJECTIVE, SERIES, SeriesOfModel
-from mbla.results.results import Results
+from mbla.results.results import DeckRecord, Results
 from mbla.results.series import series_of
 
-RUN, MODEL, NOTICE, UNITS = Object[Results](), Object[Results](), Object[Notice](), Object[Units]()
+RUN, MODEL, NOTICE = Object[Results](), Object[Results](), Object[Notice](*NOTICES.quantities)
+_RECORD, _MODEL = RUN.of(lambda results: results.deck), MODEL.of(lambda results: results.model)
+_BLOCKS = MODEL.of(lambda results: results.model.blocks)
+_CONTACTS, _REPORT = MODEL.of(lambda results: results.contacts), MODEL.of(lambda results: results.contacts.report)
+UNITS = Object[Units]()
 
 
 @RUN.key()
@@ -35,29 +43,14 @@ def mbla(results: Results) -> str:
     return results.provenance.get("mbla", __version__)
 
 
-@RUN.key()
-def deck(results: Results) -> str:
-    """File name of the deck."""
-    return results.deck.name
-
-
-@RUN.key()
-def deck_sha256(results: Results) -> str:
-    """Hash of the effective deck."""
-    return results.deck.sha256
-
-
-RUN.fields(
-    Results,
-    created=Item("date of the run, UTC, ISO 8601"),
-    exit_code=Item("exit status of the run"),
+_RECORD.fields(
+    DeckRecord,
+    deck=Field("file name of the deck", attribute="name"),
+    deck_sha256=Field("hash of the effective deck", attribute="sha256"),
 )
-
-
-@RUN.key(inside=MODEL)
-def model(results: Results) -> Results:
-    """Counts and totals of the model."""
-    return results
+RUN.fields(Results, created=Field("date of the run, UTC, ISO 8601"))
+RUN.quantities.append(STORED_BY_PATH["provenance/exit_code"])
+RUN.holds("model", MODEL, "counts and totals of the model")
 
 
 @RUN.key("a load case", inside=CASE)
@@ -78,10 +71,7 @@ def objectives(results: Results) -> list[ForceRange]:
     return list(force_ranges_of(results.cases))
 
 
-@RUN.key("value of a setting")
-def settings(results: Results) -> dict[str, str]:
-    """Analysis settings in effect."""
-    return results.settings
+RUN.fields(Results, settings=Field("analysis settings in effect", items=("value of a setting",)))
 
 
 @RUN.key("a remark", inside=NOTICE)
@@ -90,37 +80,16 @@ def notices(results: Results) -> list[Notice]:
     return list(notices_of(results))
 
 
-@RUN.key("time of a stage: read, contacts, solve, write; a part of one after a slash", unit="time")
-def time(results: Results) -> dict[str, float]:
-    """By stage."""
-    return results.time
-
-
-@RUN.key("a file")
-def files(results: Results) -> list[str]:
-    """Names of the files of the run."""
-    return list(results.files)
-
-
 RUN.fields(
     Results,
-    complete=Item("whether the run completed; false: cases are those completed before it stopped"),
+    time=Field(
+        "by stage", items=("time of a stage: read, contacts, solve, write; a part of one after a slash",), unit="time"
+    ),
+    files=Field("names of the files of the run", items=("a file",)),
+    complete=Field("whether the run completed; false: cases are those completed before it stopped"),
+    not_done=Field("load cases that a stopped run did not reach", items=("name of a load case",)),
 )
-
-
-@RUN.key("name of a load case")
-def not_done(results: Results) -> list[str]:
-    """Load cases that a stopped run did not reach."""
-    return list(results.not_done)
-
-
-NOTICE.quantities(*NOTICES.quantities)
-
-
-@NOTICE.key(missing=True)
-def case(notice: Notice) -> str:
-    """Load case that it is about; missing where it is about the entire run."""
-    return notice.case
+NOTICE.fields(Notice, case=Field("load case that it is about; missing where it is about the entire run", missing=True))
 
 
 # --- The model --------------------------------------------------------------------------------------------------------
@@ -138,116 +107,73 @@ def dimension(results: Results) -> int:
     return dimension_of(results.cases)
 
 
-@MODEL.key()
-def title(results: Results) -> str:
-    """Title of the deck."""
-    return results.model.title
+MODEL.quantities.append(STORED_BY_PATH["model/title"])
+_MODEL.fields(
+    Model,
+    blocks=Field("blocks", by=count),
+    free_blocks=Field("blocks that can move", attribute="free", by=count),
+)
 
 
-@MODEL.key()
-def blocks(results: Results) -> int:
-    """Blocks."""
-    return len(results.model.blocks)
-
-
-@MODEL.key()
-def free_blocks(results: Results) -> int:
-    """Blocks that can move."""
-    return len(results.model.free)
-
-
-@MODEL.key("a corner", "a coordinate", unit="length")
-def extents(results: Results) -> list[list[float]]:
+@_BLOCKS.key("a corner", "a coordinate", unit="length")
+def extents(blocks: Blocks) -> list[list[float]]:
     """Lower and upper corner of the box around the blocks."""
-    vertices = results.model.blocks.vertices
-    return [vertices.min(axis=0).tolist(), vertices.max(axis=0).tolist()]
+    return [blocks.vertices.min(axis=0).tolist(), blocks.vertices.max(axis=0).tolist()]
 
 
-@MODEL.key(unit="volume")
-def total_volume(results: Results) -> float:
-    """Volume of all blocks."""
-    return float(results.model.blocks.volumes.sum())
-
-
-@MODEL.key(unit="force")
-def total_weight(results: Results) -> float:
-    """Their weight under standard gravity."""
-    return results.model.total_weight
-
-
-@MODEL.key(unit="mass")
-def added_mass(results: Results) -> float:
-    """Mass that blocks carry in addition to their own."""
-    return float(results.model.blocks.added_masses.sum())
+_BLOCKS.fields(Blocks, total_volume=Field("volume of all blocks", unit="volume", attribute="volumes", by=total))
+_MODEL.fields(Model, total_weight=Field("their weight under standard gravity", unit="force"))
+_BLOCKS.fields(
+    Blocks,
+    added_mass=Field(
+        "mass that blocks carry in addition to their own", unit="mass", attribute="added_masses", by=total
+    ),
+)
 
 
 @MODEL.key(unit="mass")
 def fill_mass(results: Results) -> float:
     """The part of it that is fill."""
     fill = results.model.fill
-    return 0.0 if fill is None else float(fill.masses.sum())
+    return 0.0 if fill is None else total(fill.masses)
 
 
-@MODEL.key(inside=UNITS)
-def units(results: Results) -> Units:
-    """Units of the deck; all numbers are in them."""
-    return results.model.units
+_MODEL.fields(Model, units=Field("units of the deck; all numbers are in them", inside=UNITS))
+UNITS.fields(Units, length=Field("unit of length"), force=Field("unit of force"), mass=Field("unit of mass"))
+_REPORT.fields(
+    ContactReport,
+    open_interfaces=Field("interfaces left out as their joint law is open"),
+    glued_interfaces=Field("internal interfaces of glued bodies", attribute="glued", by=count),
+)
 
 
-UNITS.fields(Units, length=Item("unit of length"), force=Item("unit of force"), mass=Item("unit of mass"))
-
-
-@MODEL.key()
-def open_interfaces(results: Results) -> int:
-    """Interfaces left out as their joint law is open."""
-    return results.contacts.report.open_interfaces
-
-
-@MODEL.key()
-def glued_interfaces(results: Results) -> int:
-    """Internal interfaces of glued bodies."""
-    return len(results.contacts.report.glued)
-
-
-@MODEL.key()
-def glued_blocks(results: Results) -> int:
+@_CONTACTS.key()
+def glued_blocks(contacts: Contacts) -> int:
     """Blocks glued to others."""
-    return int(solid_sizes(results.contacts.solid_of_block).sum())
+    return int(solid_sizes(contacts.solid_of_block).sum())
 
 
-@MODEL.key()
-def rigid_bodies(results: Results) -> int:
+@_CONTACTS.key()
+def rigid_bodies(contacts: Contacts) -> int:
     """Bodies that they form."""
-    return len(solid_sizes(results.contacts.solid_of_block))
+    return len(solid_sizes(contacts.solid_of_block))
 
 
-@MODEL.key()
-def held_blocks(results: Results) -> int:
-    """Blocks that do not move because they are glued to a support."""
-    return len(results.contacts.report.held)
-
-
-@MODEL.key()
-def interfaces(results: Results) -> int:
-    """Interfaces."""
-    return len(results.contacts)
-
-
-@MODEL.key()
-def contact_points(results: Results) -> int:
-    """Contact points."""
-    return len(results.contacts.points)
-
-
-@MODEL.key(unit="area")
-def contact_area(results: Results) -> float:
-    """Area of all interfaces."""
-    return float(results.contacts.areas.sum())
+_REPORT.fields(
+    ContactReport,
+    held_blocks=Field("blocks that do not move because they are glued to a support", attribute="held", by=count),
+)
+_CONTACTS.fields(
+    Contacts,
+    interfaces=Field("interfaces", attribute="areas", by=count),
+    contact_points=Field("contact points", attribute="points", by=count),
+    contact_area=Field("area of all interfaces", unit="area", attribute="areas", by=total),
+)
 
 
 def results_json(results: Results) -> dict[str, Any]:
     """The record of a run; values that do not exist are None, those of mechanisms are found when they are asked for."""
-    return dict(RUN.json(results))
+    return dict(json_of(RUN, results))
 
 
 def verification_json(results: Results, disagreements: Sequence[str]) -> dict[str, Any]:
@@ -260,8 +186,8 @@ def verification_json(results: Results, disagreements: Sequence[str]) -> dict[st
         "pushovers_again": as_json(results.pushovers_again),
         "not_verified": [
             *unverified_kinds(results),
-            *((NOT_CHECKED,) if NOT_CHECKED in history_words(results) else ()),
-            *((NOT_FOLLOWED,) if NOT_FOLLOWED in pushovers_words(results) else ()),
+            *not_checked(results),
+            *not_followed(results),
             *unproved_words(results.cases),
             *remarks_of_run(results.cases),
         ],

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections import Counter
 from dataclasses import dataclass
 
-from mbla.arrays import FloatArray
 from mbla.model.model import Model
 from mbla.results.collapse.cracks import Crack, YieldLine
 from mbla.results.collapse.joint_planes import HingeLine, SlidingPlane
 from mbla.results.collapse.rigid_parts import PartMotion
-from mbla.results.record.objects import Item, Object
+from mbla.results.quantities.group import Field, count
+from mbla.results.record.objects import Object
 
 
 @dataclass(frozen=True)
@@ -22,19 +22,15 @@ class Part:
 
 
 PART, HINGE_LINE, SLIDING_PLANE = Object[Part](), Object[HingeLine](), Object[SlidingPlane]()
+_MOTION = PART.of(lambda of: of.motion)
 CRACK, YIELD_LINE = Object[Crack](), Object[YieldLine]()
 
 
-@PART.key()
-def part(of: Part) -> int:
-    """Number, from 1, the heaviest first."""
-    return of.motion.number
-
-
-@PART.key()
-def blocks(of: Part) -> int:
-    """Its blocks."""
-    return len(of.motion.blocks)
+_MOTION.fields(
+    PartMotion,
+    part=Field("number, from 1, the heaviest first", attribute="number"),
+    blocks=Field("its blocks", by=count),
+)
 
 
 @PART.key("blocks of a group")
@@ -43,10 +39,7 @@ def groups(of: Part) -> dict[str, int]:
     return dict(sorted(Counter(of.model.blocks.groups[block] for block in of.motion.blocks.tolist()).items()))
 
 
-@PART.key(unit="force")
-def weight(of: Part) -> float:
-    """Weight under standard gravity."""
-    return of.motion.weight
+_MOTION.fields(PartMotion, weight=Field("weight under standard gravity", unit="force"))
 
 
 @PART.key()
@@ -61,54 +54,49 @@ def axis_point(of: Part) -> list[float | None] | None:
     return list(of.motion.axis_point) if of.motion.turns else None
 
 
-@PART.key("a component")
-def direction(of: Part) -> FloatArray:
-    """Unit vector of the axis by the right hand, or of the travel."""
-    return of.motion.direction
-
-
-INTERFACES = Item("its interfaces", "number of an interface, from 0")
+_MOTION.fields(PartMotion, direction=Field("unit vector of the axis by the right hand, or of the travel", "vector"))
+INTERFACES = Field("its interfaces", "interface")
 HINGE_LINE.fields(
     HingeLine,
-    clusters=Item("the cluster that turns, and the other; 0 is at rest", "a cluster"),
+    clusters=Field("the cluster that turns, and the other; 0 is at rest", "cluster"),
     interfaces=INTERFACES,
-    start=Item("start of the line", "a coordinate", "length"),
-    end=Item("its end", "a coordinate", "length"),
-    direction=Item("unit vector from start to end, for the first by the right hand", "a component"),
-    rotation=Item("the largest relative angular velocity of its interfaces", unit="rotation"),
-    share=Item("its largest contact speed over the largest of all"),
-    slides=Item("whether closed points of it slide too"),
-    crushes=Item("whether closed points of it crush too"),
-    shear_power_share=Item("share of the power put in that its shear forces dissipate", null=True),
+    start=Field("start of the line", "axis", "length"),
+    end=Field("its end", "axis", "length"),
+    direction=Field("unit vector from start to end, for the first by the right hand", "vector"),
+    rotation=Field("the largest relative angular velocity of its interfaces", unit="rotation"),
+    share=Field("its largest contact speed over the largest of all"),
+    slides=Field("whether closed points of it slide too"),
+    crushes=Field("whether closed points of it crush too"),
+    shear_power_share=Field("share of the power put in that its shear forces dissipate", rule="open"),
 )
 SLIDING_PLANE.fields(
     SlidingPlane,
-    clusters=Item("the cluster that slides, and the other; 0 is at rest", "a cluster"),
+    clusters=Field("the cluster that slides, and the other; 0 is at rest", "cluster"),
     interfaces=INTERFACES,
-    area=Item("area of its interfaces", unit="area"),
-    centroid=Item("their centroid", "a coordinate", "length"),
-    normal=Item("unit vector towards the cluster that slides", "a component"),
-    direction=Item("unit vector in which it slides over the other", "a component"),
-    twists=Item("whether it slides by turning about the normal"),
-    power_share=Item("share of the power put in that is dissipated there", null=True),
-    shear_power_share=Item("the same of the shear forces alone", null=True),
-    share=Item("its largest contact speed over the largest of all"),
+    area=Field("area of its interfaces", unit="area"),
+    centroid=Field("their centroid", "axis", "length"),
+    normal=Field("unit vector towards the cluster that slides", "vector"),
+    direction=Field("unit vector in which it slides over the other", "vector"),
+    twists=Field("whether it slides by turning about the normal"),
+    power_share=Field("share of the power put in that is dissipated there", rule="open"),
+    shear_power_share=Field("the same of the shear forces alone", rule="open"),
+    share=Field("its largest contact speed over the largest of all"),
 )
 CRACK.fields(
     Crack,
-    clusters=Item("the cluster that moves away, and the other; 0 is at rest", "a cluster"),
+    clusters=Field("the cluster that moves away, and the other; 0 is at rest", "cluster"),
     interfaces=INTERFACES,
-    start=Item("centroid of its first interface", "a coordinate", "length"),
-    end=Item("of its last", "a coordinate", "length"),
-    area=Item("area of its interfaces", unit="area"),
-    widest=Item("the contact point at which it opens most", "a coordinate", "length"),
-    share=Item("opening speed there over the largest contact speed of all"),
+    start=Field("centroid of its first interface", "axis", "length"),
+    end=Field("of its last", "axis", "length"),
+    area=Field("area of its interfaces", unit="area"),
+    widest=Field("the contact point at which it opens most", "axis", "length"),
+    share=Field("opening speed there over the largest contact speed of all"),
 )
 YIELD_LINE.fields(
     YieldLine,
-    parts=Item("the clusters on both sides; 0 is at rest and comes second", "a cluster"),
+    parts=Field("the clusters on both sides; 0 is at rest and comes second", "cluster"),
     interfaces=INTERFACES,
-    off=Item("distance of the interfaces from it over its length, root of the mean square"),
+    off=Field("distance of the interfaces from it over its length, root of the mean square"),
 )
 
 

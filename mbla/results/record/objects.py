@@ -1,26 +1,41 @@
-"""Objects of the JSON record, and how a key of one is declared: a function of what the object tells.
+"""Objects of the JSON record: quantities as keys with their values, and what each key is.
 
-Its name is the key, its docstring the meaning, and what it returns says the type: ``float | None`` is a number or null,
-``list[str]`` a list of texts, ``dict[str, int]`` an object with a key for each that the deck names. What every item of
-a list or object is, the declaration says; where it is an object itself, ``inside`` says which.
+An object is a group of quantities: one that result file or tables have too, or one of the record alone. The type of a
+key is that of its quantity: ``float | None`` is a number or null, ``list[str]`` a list of texts, ``dict[str, int]`` an
+object with a key for each that the deck names. What every item of a list or object is, the declaration says; where it
+is an object itself, ``inside`` says which.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import partial
-from typing import Any, Generic, TypeVar
+from typing import Any, TypeVar
 
-from mbla.deck.units import Units
-from mbla.results.quantities.group import words_of
-from mbla.results.quantities.quantity import Quantity, UnitKind, unit_text
+from mbla.results.quantities.group import KINDS, Function, Group
+from mbla.results.quantities.quantity import Quantity, UnitKind
 from mbla.results.record.json_values import as_json
 
 Owner = TypeVar("Owner")
-Function = TypeVar("Function", bound=Callable[..., Any])
-KINDS = {"int": "integer", "float": "number", "bool": "boolean", "str": "string"}
+
+
+def itself(of: Any) -> Any:
+    """The owner that is what there is."""
+    return of
+
+
+TYPES = {"int": "integer", "float": "number", "bool": "boolean", "text": "string"}
+LISTS = {"FloatArray": "list[float]", "IntArray": "list[int]"}
+ITEMS = {
+    "axis": "a coordinate",
+    "vector": "a component",
+    "sentence": "a sentence",
+    "cluster": "a cluster",
+    "interface": "number of an interface, from 0",
+}
+"""what is along these dimensions, one by one; along others the same as along with them"""
 
 
 @dataclass(frozen=True)
@@ -36,76 +51,6 @@ class Key:
     kind: str
     words: str
     unit: UnitKind = "1"
-
-    @property
-    def item(self) -> tuple[str, str, str]:
-        """Path, type with its unit as in a deck in m, N, kg, and meaning."""
-        kind = self.kind if self.unit == "1" else f"{self.kind} [{unit_text(self.unit, Units())}]"
-        return self.path, kind, self.words
-
-
-@dataclass(frozen=True)
-class Item:
-    """What a field of a dataclass is as a key; ``null``: it may be."""
-
-    words: str
-    items: str = ""
-    unit: UnitKind = "1"
-    null: bool = False
-
-    @property
-    def of_items(self) -> tuple[str, ...]:
-        """What its items are, where it has any."""
-        return (self.items,) if self.items else ()
-
-
-@dataclass(frozen=True)
-class _Member:
-    """A key with its value; ``annotation``: the type of that; ``missing``: where the value is empty, there is none."""
-
-    annotation: str
-    words: str
-    of: Callable[[Any], Any]
-    items: tuple[str, ...] = ()
-    unit: UnitKind = "1"
-    inside: Object[Any] | None = None
-    missing: bool = False
-
-    def value(self, owner: Any) -> Any:
-        found = self.of(owner)
-        if found is None or self.inside is None:
-            return as_json(found)
-        if isinstance(found, dict):
-            return {name: self.inside.json(own) for name, own in found.items()}
-        return [self.inside.json(own) for own in found] if _is_list(self.annotation) else self.inside.json(found)
-
-    def keys(self, path: str) -> Iterator[Key]:
-        """The key, those of its items, and those of the objects in it."""
-        below = "[]" if _is_list(self.annotation) else ".*" if self.annotation.startswith("dict") else ""
-        annotation = self.annotation
-        if self.inside is not None:
-            null = " | None" * annotation.endswith(" | None")
-            annotation = {"[]": "list[object]", ".*": "dict[str, object]", "": "object"}[below] + null
-        yield from _keys(path, annotation, (self.words, *self.items), self.unit)
-        if self.inside is not None:
-            yield from self.inside.keys(f"{path}{below}.")
-
-
-def _keys(path: str, annotation: str, words: tuple[str, ...], unit: UnitKind) -> Iterator[Key]:
-    null = "?" if annotation.endswith(" | None") else ""
-    plain = "list[float]" if annotation.startswith("FloatArray") else annotation.removesuffix(" | None")
-    outer = re.fullmatch(r"(list|tuple|dict)\[(?:str, )?(.+?)(?:, (?:\.\.\.|int))?\]", plain)
-    if outer is None:
-        kind = KINDS.get(plain, "object")
-        yield Key(path, kind + null, words[0], unit if kind == "number" else "1")
-        return
-    is_object = outer[1] == "dict"
-    yield Key(path, ("object" if is_object else "list") + null, words[0])
-    yield from _keys(path + (".*" if is_object else "[]"), outer[2], words[1:], unit)
-
-
-def _is_list(annotation: str) -> bool:
-    return annotation.startswith(("list", "tuple"))
 
 
 class OnDemand(Mapping[str, Any]):
@@ -128,85 +73,91 @@ class OnDemand(Mapping[str, Any]):
         return len(self._makers)
 
 
-class Object(Generic[Owner]):
-    """An object of the record.
+class Object(Group[Owner]):
+    """An object of the record that is no group of the result file and no table.
 
-    on_demand : values are found when they are asked for
+    quantities : of others that it begins with
+    owner      : what its own belong to, of what it tells of
+    on_demand  : values are found when they are asked for
     """
 
-    def __init__(self, *, on_demand: bool = False) -> None:
-        self._members: dict[str, _Member] = {}
-        self._on_demand = on_demand
+    def __init__(
+        self, *quantities: Quantity, owner: Callable[[Any], Owner | None] = itself, on_demand: bool = False
+    ) -> None:
+        super().__init__(owner)
+        self.quantities.extend(quantities)
+        self.on_demand = on_demand
 
-    def key(
-        self,
-        *items: str,
-        name: str = "",
-        unit: UnitKind = "1",
-        inside: Object[Any] | None = None,
-        missing: bool = False,
-    ) -> Callable[[Function], Function]:
-        """Declare the function that follows.
+    def key(self, *items: str, **said: Any) -> Callable[[Function], Function]:
+        """Declare the function that follows; ``items``: what each item is, and what each of its items is."""
+        return self.quantity(items=items, **said)
 
-        items   : what each item is, and what each of its items is
-        missing : the key, where its value is empty
-        """
+    def of(self, owner: Callable[[Any], Any]) -> Object[Any]:
+        """What declares quantities of another owner as keys of this object."""
+        other = Object[Any](owner=owner)
+        other.quantities = self.quantities
+        return other
 
-        def declare(function: Function) -> Function:
-            kind, words = function.__annotations__["return"], words_of(function)
-            self._members[name or function.__name__] = _Member(kind, words, function, items, unit, inside, missing)
-            return function
-
-        return declare
-
-    def fields(self, record: type, **fields: Item) -> None:
-        """Declare fields of a dataclass, which the owner is."""
-        for name, item in fields.items():
-            kind = record.__dataclass_fields__[name].type  # type: ignore[attr-defined]
-            kind = KNOWN.get(kind, kind) + " | None" * item.null
-            of = partial(lambda attribute, owner: getattr(owner, attribute), name)
-            self._members[name] = _Member(kind, item.words, of, item.of_items, item.unit)
-
-    def quantities(self, *quantities: Quantity, null: tuple[str, ...] = ()) -> None:
-        """Declare quantities of result files or of tables of rows; ``null``: texts that are null where empty."""
-        for each in quantities:
-            annotation = {"text": "str"}.get(each.kind, each.kind) + " | None" * (each.open or each.name in null)
-            of = partial(_or_null, each.of) if each.name in null else each.of
-            if "axis" in each.dims:
-                annotation = "FloatArray"
-            items = ("a coordinate",) if "axis" in each.dims else ()
-            self._members[each.name] = _Member(annotation, each.words, of, items, each.unit)
-
-    def columns(self, quantities: Iterable[Quantity]) -> None:
-        """Declare columns of a table as keys: null where there is no value, or an empty text."""
-        for each in quantities:
-            annotation, of = {"text": "str"}.get(each.kind, each.kind), each.of
-            items: tuple[str, ...] = ()
-            if each.dims == ("sentence",):
-                annotation, items = "list[str]", ("a sentence",)
-            elif each.dims:
-                annotation, items = f"list[{annotation} | None] | None", (each.words,)
-            elif each.kind in ("text", "float"):
-                annotation += " | None"
-                of = partial(_or_null, each.of) if each.kind == "text" else each.of
-            self._members[each.name] = _Member(annotation, each.words, of, items, each.unit)
-
-    def json(self, owner: Owner) -> Mapping[str, Any]:
-        """The object that tells of its owner."""
-        if self._on_demand:
-            return OnDemand({name: partial(member.value, owner) for name, member in self._members.items()})
-        values = {name: member.value(owner) for name, member in self._members.items()}
-        return {name: value for name, value in values.items() if value or not self._members[name].missing}
-
-    def keys(self, path: str = "") -> Iterator[Key]:
-        """All keys of it, ``path`` before each."""
-        for name, member in self._members.items():
-            yield from member.keys(path + name)
+    def holds(self, name: str, group: Group[Any], words: str, *items: str) -> None:
+        """Declare a group as a key: a list where it has rows, else null where there may be no such thing."""
+        of = partial(_owner if group.rows is None else _rows, group)
+        kind = "object" if group.owner is itself else "object | None" if group.rows is None else "list[object]"
+        self.quantities.append(Quantity(name, "object", words, annotation=kind, items=items, inside=group, of=of))
 
 
-KNOWN = {"IntArray": "list[int]", "tuple[int, int]": "list[int]", "ReductionOutcome": "str", "TieState": "str"}
-"""types of fields as those of keys"""
+def _rows(group: Group[Any], base: Any) -> list[Any]:
+    return list(group.owner(base) or ())
 
 
-def _or_null(of: Callable[[Any], Any], owner: Any) -> Any:
-    return of(owner) or None
+def _owner(group: Group[Any], base: Any) -> Any:
+    return None if group.owner(base) is None else base
+
+
+def json_of(group: Group[Any], owner: Any) -> Mapping[str, Any]:
+    """The object that tells of its owner."""
+    if isinstance(group, Object) and group.on_demand:
+        return OnDemand({each.name: partial(_value, each, owner) for each in group.quantities})
+    values = [(each, _value(each, owner)) for each in group.quantities]
+    return {each.name: value for each, value in values if value or not each.missing}
+
+
+def _value(quantity: Quantity, owner: Any) -> Any:
+    found, inside = quantity.of(owner), quantity.inside
+    if found is None or inside is None:
+        return None if quantity.open and found == "" else as_json(found)
+    if isinstance(found, dict):
+        return {name: json_of(inside, own) for name, own in found.items()}
+    return [json_of(inside, own) for own in found] if _is_list(quantity.annotation) else json_of(inside, found)
+
+
+def _is_list(annotation: str) -> bool:
+    return annotation.startswith(("list", "tuple"))
+
+
+def keys_of(group: Group[Any], path: str = "") -> Iterator[Key]:
+    """All keys of an object, ``path`` before each, with those of their items and of the objects in them."""
+    for each in group.quantities:
+        annotation = each.annotation if not each.open else each.annotation.removesuffix(" | None") + " | None"
+        below = "[]" if _is_list(annotation) else ".*" if annotation.startswith("dict") else ""
+        if each.inside is not None:
+            null = " | None" * annotation.endswith(" | None")
+            annotation = {"[]": "list[object]", ".*": "dict[str, object]", "": "object"}[below] + null
+        words = each.items or tuple(ITEMS.get(dim, each.words) for dim in each.dims[-1:])
+        yield from _keys(path + each.name, annotation, (each.words, *words), each.unit)
+        if each.inside is not None:
+            yield from keys_of(each.inside, f"{path}{each.name}{below}.")
+
+
+def _keys(path: str, annotation: str, words: tuple[str, ...], unit: UnitKind) -> Iterator[Key]:
+    plain = annotation.removesuffix(" | None")
+    null = "?" if plain != annotation else ""
+    outer = re.fullmatch(
+        r"(list|tuple|dict|Sequence)\[(?:(?<=dict\[)str, )?(.+?)(?:, (?:\.\.\.|int))?\]", LISTS.get(plain, plain)
+    )
+    if outer is None:
+        kind = TYPES.get(KINDS.get(plain, ""), "object")
+        yield Key(path, kind + null, words[0], unit if kind == "number" else "1")
+        return
+    is_object = outer[1] == "dict"
+    yield Key(path, ("object" if is_object else "list") + null, words[0])
+    yield from _keys(path + (".*" if is_object else "[]"), outer[2], words[1:], unit)

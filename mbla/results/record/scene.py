@@ -14,7 +14,7 @@ from mbla.assembly.assembly import Assembly
 from mbla.assembly.rigid_bodies import RigidBodies
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import LoadCase, Model
-from mbla.results.collapse.collapse import Collapse, collapse_of
+from mbla.results.collapse.collapse import Collapse, Failure, collapse_of, failure_of
 from mbla.results.collapse.interface_modes import InterfaceMotion
 from mbla.results.collapse.mechanics import interface_resultants
 from mbla.results.collapse.motion import drawn_motion, mean_displacements, vertex_displacements
@@ -121,6 +121,13 @@ class Scene:
         if self.case is None or self.mechanics is None:
             return None
         return collapse_of(self.assembly, self.case.load_case, self.mechanics)
+
+    @cached_property
+    def failure(self) -> Failure | None:
+        """How the mechanism is listed."""
+        if self.collapse is None or self.mechanics is None:
+            return None
+        return failure_of(self.model, self.contacts, self.collapse, self.mechanics)
 
     @property
     def interfaces(self) -> InterfaceMotion | None:

@@ -9,6 +9,7 @@ from mbla.model.model import Model
 from mbla.results.force_range import ForceRange, end_value
 from mbla.results.outcome import answer_bounds
 from mbla.results.quantities import series as quantities
+from mbla.results.quantities.group import Field
 from mbla.results.quantities.series import Position
 from mbla.results.record.objects import Object
 from mbla.results.results import CaseResult
@@ -31,20 +32,19 @@ class Axle:
     number: int
 
 
-SERIES, POSITION, AXLE = Object[SeriesOfModel](), Object[Position](), Object[Axle]()
+SERIES, AXLE = Object[SeriesOfModel](), Object[Axle]()
+_KNOWN = {quantity.name: quantity for quantity in quantities.POSITIONS.quantities}
+POSITION = Object[Position](
+    *(_KNOWN[name] for name in ("case", "position", "point", "distance", "block", "status", "load_factor"))
+)
 OBJECTIVE, END = Object[ForceRange](), Object[CaseResult]()
+_SERIES = SERIES.of(lambda of: of.series)
 
-
-@SERIES.key()
-def name(of: SeriesOfModel) -> str:
-    """Load case in the deck."""
-    return of.series.name
-
-
-@SERIES.key()
-def complete(of: SeriesOfModel) -> bool:
-    """Whether every position was solved, none left out by name."""
-    return of.series.complete
+_SERIES.fields(
+    Series,
+    name=Field("load case in the deck"),
+    complete=Field("whether every position was solved, none left out by name"),
+)
 
 
 @SERIES.key("a position", inside=POSITION)
@@ -59,20 +59,13 @@ def worst(of: SeriesOfModel) -> Position | None:
     return None if of.series.worst is None else Position(of.model, of.series, of.series.worst)
 
 
-_KNOWN = {quantity.name: quantity for quantity in quantities.POSITIONS.quantities}
-POSITION.quantities(
-    *(_KNOWN[name] for name in ("case", "position", "point", "distance", "block", "status", "load_factor")),
-    null=("block",),
-)
-
-
 @POSITION.key("an axle", inside=AXLE)
 def axles(of: Position) -> list[Axle]:
     """All axles, the first one first."""
     return [Axle(of, number) for number in range(len(of.travel.blocks))]
 
 
-@AXLE.key("a coordinate", name="point", unit="length")
+@AXLE.key(name="point", dims="axis", unit="length")
 def point_of_axle(of: Axle) -> FloatArray:
     """As of the position."""
     point: FloatArray = of.position.travel.points[of.number]
@@ -88,18 +81,11 @@ def distance_of_axle(of: Axle) -> float:
 @AXLE.key(name="block")
 def block_of_axle(of: Axle) -> str | None:
     """As of the position."""
-    return _carrier(of.position, of.number)
+    block = int(of.position.travel.blocks[of.number])
+    return of.position.model.blocks.name(block) if block >= 0 else None
 
 
-def _carrier(of: Position, axle: int) -> str | None:
-    block = int(of.travel.blocks[axle])
-    return of.model.blocks.name(block) if block >= 0 else None
-
-
-@OBJECTIVE.key(name="name")
-def objective_name(found: ForceRange) -> str:
-    """Name of the load case in the deck."""
-    return found.name
+OBJECTIVE.fields(ForceRange, name=Field("name of the load case in the deck"))
 
 
 @OBJECTIVE.key()
@@ -108,10 +94,7 @@ def at(found: ForceRange) -> float:
     return found.question.objective.at
 
 
-@OBJECTIVE.key(name="status")
-def graver_status(found: ForceRange) -> str:
-    """The graver status of both ends."""
-    return found.status.value
+OBJECTIVE.fields(ForceRange, status=Field("the graver status of both ends"))
 
 
 @OBJECTIVE.key(inside=END)
@@ -132,10 +115,7 @@ def case_of_end(case: CaseResult) -> str:
     return case.load_case.name
 
 
-@END.key(name="status")
-def status_of_end(case: CaseResult) -> str:
-    """Status."""
-    return case.status.value
+END.fields(CaseResult, status=Field("status"))
 
 
 @END.key(unit="force")

@@ -10,7 +10,6 @@ from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
-from mbla.deck.units import Units
 from mbla.errors import UsageError
 from mbla.results.files import OutputFolder
 from mbla.results.outcome import notices_of
@@ -26,7 +25,6 @@ from mbla.results.tables.table import (
     Table,
     TableKind,
     table_of,
-    unit_in,
     values_in_scene,
     values_of_case,
     values_of_rows,
@@ -134,18 +132,6 @@ def tables_of(
         if name not in TABLES:
             raise UsageError("unknown-table", f"no table {name}; there are {', '.join(TABLES)}")
     return {name: table_of(TABLES[name], results, chosen) for name in (TABLES if names is None else names)}
-
-
-def tables_page() -> str:
-    """Every table with its columns, as it stands in schemas/results.md; units as in a deck in m, N, kg."""
-    lines: list[str] = []
-    for kind in TABLES.values():
-        lines += [f"### `{kind.name}`", "", f"One row for {kind.words}.", ""]
-        lines += ["| column | type | unit | meaning |", "|---|---|---|---|"]
-        for column in kind.columns:
-            lines.append(f"| `{column.name}` | {column.kind} | {unit_in(column, Units()) or '–'} | {column.words} |")
-        lines.append("")
-    return "\n".join(lines)
 
 
 def export_results(

@@ -2,31 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 
-from mbla.deck.units import Units
-from mbla.results.quantities.quantity import Quantity, flag, integer, real, unit_text
+from mbla.results.quantities.quantity import Quantity, flag, integer, real
 from mbla.results.quantities.registry import BLOCK_COLUMNS, INTERFACE_COLUMNS, POINT_COLUMNS
 from mbla.results.record.scene import Scene
 
 Arrays = dict[str, np.typing.NDArray[Any]]
 
-CELLS = {
-    "blocks": "blocks as polyhedra, in their order; no two share a point",
-    "frames": "(…_frame_NNN.vtu) the same after a finite motion, from as built to as drawn, which STEM_CASE.pvd plays; "
-    "(…_pushed_NNN.vtu) where they are at the steps of a pushover, which STEM_CASE_pushed.pvd plays",
-    "contacts": "contact points as vertices",
-    "interfaces": "interfaces as polygons, by their outer boundary; holes are not drawn, areas and forces count them",
-    "thrust": "points of application of resultants as vertices, outside a joint its edge; thrust lines between them",
-    "hinges": "axes of interfaces that open about one, as lines where they stay closed; about a corner as points",
-    "loads": "loads and reactions as vertices where they act",
-    "ties": "ties, struts and rings as lines, one for each stretch; strips and fill as vertices where they act",
-    "supports": "ground as slabs under what stands on it, fixed blocks, guided blocks, as polyhedra",
-}
-"""files by what their names end in, and their cells"""
 COLUMNS: dict[tuple[str, str], tuple[Quantity, ...]] = {
     ("blocks", "cells"): BLOCK_COLUMNS,
     ("frames", "cells"): BLOCK_COLUMNS,
@@ -83,32 +68,12 @@ def arrays_of(scene: Scene, file: str, on: str, rows: Any = slice(None)) -> Arra
         if values is not None and not (quantity.names and list(quantity.names(scene)) == [""]):
             plain = np.ma.filled(values, -1)[rows]
             plain = plain.astype(np.int8) if plain.dtype == bool else plain
-            found |= {name: plain[(slice(None), *place)] for name, place in _names(quantity)}
+            found |= {name: plain[(slice(None), *place)] for name, place in names_of_arrays(quantity)}
     return found
 
 
-def _names(quantity: Quantity) -> list[tuple[str, tuple[int, ...]]]:
+def names_of_arrays(quantity: Quantity) -> list[tuple[str, tuple[int, ...]]]:
     """Names of arrays of a quantity and what of its values they are: vectors are one array."""
     if "axis" in quantity.dims:
         return [(quantity.name, ())]
     return [(name, place) for place, name, _ in quantity.components()]
-
-
-def described(file: str, on: str) -> dict[str, Quantity]:
-    """Every array that a file may hold, by name; one without forces or without a mechanism holds fewer."""
-    quantities: Sequence[Quantity] = [each for each in COLUMNS.get((file, on), ()) if file in each.files]
-    return {name: each for each in (*quantities, *OTHERS.get((file, on), ())) for name, _ in _names(each)}
-
-
-def arrays_table() -> str:
-    """The tables of schemas/results.md; units as in a deck in m, N, kg."""
-    lines = ["| file | cells |", "|---|---|"]
-    lines += [f"| …_{file}.vtu | {cells} |" for file, cells in CELLS.items()]
-    lines += ["", "| file, on | array | components | units | content |", "|---|---|---|---|---|"]
-    for file in CELLS:
-        for on in ("points", "cells"):
-            for name, each in described(file, on).items():
-                count = 3 if "axis" in each.dims else 1
-                unit = unit_text(each.unit, Units())
-                lines.append(f"| {file}, {on} | `{name}` | {count} | {unit} | {each.words} |")
-    return "\n".join(lines) + "\n"

@@ -16,7 +16,7 @@ from mbla.results.pictures.diagrams import dress, open_diagrams
 from mbla.results.pictures.options import PictureOptions
 from mbla.results.pictures.page import BLUE, GHOST, INK, SKY
 from mbla.results.record.json_values import as_json
-from mbla.results.record.keys import Key
+from mbla.results.record.objects import Key
 from mbla.sweeps.answers import Answer
 from mbla.sweeps.command import Finished, Prepared, Report, run_sweep
 from mbla.sweeps.engine.child import PointRunner

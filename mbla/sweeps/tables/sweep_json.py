@@ -22,7 +22,7 @@ from mbla.errors import FileError, Notice
 from mbla.results.disk import file_errors
 from mbla.results.record.json_record import NOTICE
 from mbla.results.record.json_values import number
-from mbla.results.record.keys import Key
+from mbla.results.record.objects import Key, json_of
 from mbla.results.record.scene import Values
 from mbla.sweeps.design.design import DesignDimension
 from mbla.sweeps.fragility import fragility_keys
@@ -64,7 +64,7 @@ def sweep_json(
         },
         "columns": [asdict(column) for column in table.columns],
         "fragility": [],
-        "notices": [NOTICE.json(notice) for notice in notices],
+        "notices": [json_of(NOTICE, notice) for notice in notices],
         "time": {"total": number(seconds)},
         "files": [],
     }

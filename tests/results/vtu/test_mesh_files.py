@@ -13,7 +13,6 @@ from mbla.questions.load_factor import LOAD_FACTOR
 from mbla.results.files import OutputFolder
 from mbla.results.record.scene import Scene, scene_of
 from mbla.results.results import Results
-from mbla.results.vtu.arrays import CELLS, described
 from mbla.results.vtu.loads import DEAD, GUIDE, LIVE, REACTION, load_vectors
 from mbla.results.vtu.mesh_files import MESHES, write_model_vtu
 from mbla.results.vtu.meshes import LINE, POINT, hinges_mesh, thrust_mesh
@@ -24,6 +23,7 @@ from tests.decks.folder import BENCHMARKS
 from tests.results.no_contacts import without_contacts
 from tests.results.pictures.rows_and_columns import row_of_blocks
 from tests.results.reading import read_vtk, vtk_array, vtk_volumes
+from tests.results.results_page import CELLS, described
 from tests.results.synthetic import full_results, tower_mechanics, tower_results
 
 LABELS = {"members", *POSITIONS}

@@ -9,9 +9,9 @@ import pytest
 
 from mbla.deck import read_deck
 from mbla.process.run_options import RunOptions
-from mbla.results.record.json_record import results_json
+from mbla.results.record.json_record import RUN, results_json
 from mbla.results.record.json_values import json_line
-from mbla.results.record.keys import RUN_RECORD
+from mbla.results.record.objects import keys_of
 from mbla.results.status_file import StatusFile
 from mbla.run import solve_deck
 from mbla.sweeps.engine.child import ON_REQUEST, PointRunner, requested_only
@@ -77,7 +77,7 @@ def test_they_are_worked_out_where_they_are_shown_or_kept(results: tuple[str, ..
 
 
 def test_every_key_on_request_is_one_of_the_record() -> None:
-    known = {key.path.removeprefix("cases[].").removeprefix("series[].").partition(".")[0] for key in RUN_RECORD}
+    known = {key.path.removeprefix("cases[].").removeprefix("series[].").partition(".")[0] for key in keys_of(RUN)}
     assert known >= set(ON_REQUEST)
 
 

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-
 import numpy as np
 
 from mbla.arrays import evenly
@@ -22,6 +20,7 @@ from mbla.results.outcome import (
     RESIDUALS,
     associative_of,
     best_iterate,
+    distinct,
     falls_while_moving,
     least_of,
     locked_in,
@@ -143,11 +142,6 @@ def solver_facts(solution: Solution) -> list[Fact]:
     used = [[program.solver, program.factorization] for program in solution.programs if program.solver]
     names = distinct(f"{solver} ({library})" if library else solver for solver, library in used)
     return [Fact("solver", ", ".join(names))] if names else []
-
-
-def distinct(names: Iterable[str]) -> list[str]:
-    """Each once, in the order of their first appearance, none empty."""
-    return [name for name in dict.fromkeys(names) if name]
 
 
 # --- The programs of a solution as a table, and what each was for ---------------------------------------------------
