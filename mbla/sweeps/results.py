@@ -19,12 +19,12 @@ from mbla.results.quantities.quantity import unit_text
 from mbla.results.record.json_record import RUN
 from mbla.results.record.objects import Key, keys_of
 from mbla.sweeps.plan import Plain
-from mbla.sweeps.tables.sweep_table import SweepColumn
+from mbla.sweeps.tables.sweep_table import AFTER, POINT, STATE, SweepColumn
 
 OF_RUN = ("model", "settings", "time")
 """first keys of paths that lead into the record of the run rather than into that of a load case"""
 TIME_OF_CASE = ("time.total", "time.solver")
-OWN_COLUMNS = ("point", "state", "exit_code", "reason", "tries", "seconds")
+OWN_COLUMNS = tuple(column.name for column in (POINT, STATE, *AFTER))
 """columns that every table of a sweep has in addition to those of parameters and results"""
 STATUS = "status"
 FACTORS = (

@@ -7,15 +7,15 @@ import numpy as np
 from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.contacts.contacts import Contacts
 from mbla.deck.sections.selectors import POSITIONS
-from mbla.model.model import LoadCase
+from mbla.model.model import LoadCase, Model
 from mbla.model.solids.blocks import BlockLabels, Blocks
 from mbla.results.quantities.answers import OWN, claimed_collapse
 from mbla.results.quantities.group import Field, Group
-from mbla.results.quantities.points import figure_names
-from mbla.results.record.scene import FIGURES, Scene, Values, as_text
+from mbla.results.quantities.points import declare_figures
+from mbla.results.record.scene import Scene, Values, as_text
 
 SCENE = Group[Scene](lambda scene: scene, table="blocks")
-MODEL = Group[Scene](lambda scene: scene, file="model", table="blocks")
+MODEL = Group[Model](lambda scene: scene.model, file="model", table="blocks")
 BLOCKS = Group[Blocks](lambda scene: scene.model.blocks, file="model", table="blocks")
 LABELS = Group[BlockLabels](lambda scene: scene.model.blocks.labels, file="model", table="blocks")
 
@@ -131,16 +131,11 @@ BLOCKS.fields(
 )
 
 
-@MODEL.quantity("table blocks", dims="block", unit="force")
-def weights(scene: Scene) -> FloatArray:
-    """Weight under standard gravity, 9.81 m/s2."""
-    return scene.model.weights
-
-
-@MODEL.quantity("table blocks frames", dims="block")
-def fixed(scene: Scene) -> BoolArray:
-    """1 where the block does not move."""
-    return scene.model.fixed
+MODEL.fields(
+    Model,
+    weights=Field("weight under standard gravity, 9.81 m/s2", "block", unit="force", files="table blocks"),
+    fixed=Field("1 where the block does not move", "block", files="table blocks frames"),
+)
 
 
 @SCENE.quantity("table blocks", dims="block")
@@ -174,10 +169,7 @@ Group[LoadCase](lambda scene: scene.load_case, file="cases/*", asked=True, table
 )
 
 
-@SCENE.quantity("table", dims="block", names=figure_names)
-def figures(scene: Scene) -> IntArray:
-    """What forces and velocities are: 1 result, 2 best_iterate: no result, 3 lock: balance the live load, 0 none."""
-    return np.full(len(scene.model.blocks), FIGURES.index(scene.figures))
+declare_figures(SCENE, "table", "block", lambda scene: scene.model.blocks.volumes)
 
 
 @SCENE.quantity("table", like=OWN["mechanism"])

@@ -15,9 +15,10 @@ it is refused when the module is imported.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence, Sized
+from copy import copy
 from dataclasses import dataclass
 from operator import attrgetter
-from typing import Any, Generic, TypeVar
+from typing import Any, Generic, Self, TypeVar
 
 from mbla.arrays import FloatArray
 from mbla.results.quantities.quantity import UNVERIFIED, Kind, Quantity, UnitKind
@@ -94,7 +95,17 @@ class Group(Generic[Owner]):
         self.owner, self.claim = owner, claim or owner
         self.file, self.table, self.rows, self.asked = file, table, rows, asked
         self.part, self.unverified = part, unverified
+        self.row: Callable[[Any], Any] | None = None
         self.quantities: list[Quantity] = []
+
+    def of(self, owner: Callable[[Any], Any]) -> Self:
+        """What declares quantities of another owner, which this one's leads to, among those of this group."""
+        other = copy(self)
+        if self.rows is None:
+            other.owner, other.claim = _of_one(self.owner, owner), _of_one(self.claim, owner)
+        else:
+            other.row = owner
+        return other
 
     def quantity(
         self, files: str = "", *, like: Quantity | None = None, name: str = "", **said: Any
@@ -128,6 +139,7 @@ class Group(Generic[Owner]):
     def _add(self, name: str, annotation: str, said: Field, of: Callable[[Any], Any], **more: Any) -> Quantity:
         rule, _, dimension = said.rule.partition(" of ")
         one = self.rows is None
+        of = of if self.row is None else _of_one(self.row, of)
         unverified = self.unverified if said.unverified is None else said.unverified
         quantity = Quantity(
             name,

@@ -12,8 +12,8 @@ from mbla.results.collapse.thrust import Thrust
 from mbla.results.quantities.answers import claimed_collapse
 from mbla.results.quantities.group import Field, Group
 from mbla.results.quantities.model import joined
-from mbla.results.quantities.points import figure_names
-from mbla.results.record.scene import FIGURES, Scene, Values, as_text
+from mbla.results.quantities.points import declare_figures
+from mbla.results.record.scene import Scene, Values, as_text
 
 SCENE = Group[Scene](lambda scene: scene, table="interfaces")
 CONTACTS = Group[Contacts](lambda scene: scene.contacts, file="contacts", table="interfaces")
@@ -90,10 +90,7 @@ CONTACTS.fields(
 )
 
 
-@SCENE.quantity("table interfaces thrust hinges", dims="interface", names=figure_names)
-def figures(scene: Scene) -> IntArray:
-    """What forces and velocities are: 1 result, 2 best_iterate: no result, 3 lock: balance the live load, 0 none."""
-    return np.full(len(scene.contacts), FIGURES.index(scene.figures))
+declare_figures(SCENE, "table interfaces thrust hinges", "interface", lambda scene: scene.contacts)
 
 
 @THRUST.quantity("table interfaces thrust", dims="interface axis", unit="force")

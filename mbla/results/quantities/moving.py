@@ -7,7 +7,7 @@ from mbla.results.collapse.interface_modes import InterfaceMode, InterfaceMotion
 from mbla.results.collapse.rigid_parts import moving_blocks as free_blocks_that_move
 from mbla.results.collapse.rigid_parts import moving_share
 from mbla.results.quantities.group import Field, Group, count
-from mbla.results.quantities.points import figure_names
+from mbla.results.quantities.points import FIGURES_WORDS, figure_names
 from mbla.results.record.scene import FIGURES, Scene
 
 SCENE = Group[Scene](lambda scene: scene, table="cases")
@@ -16,9 +16,9 @@ _COLLAPSE = Group[Collapse](lambda scene: scene.collapse, table="cases")
 _INTERFACES = Group[InterfaceMotion](lambda scene: scene.interfaces, table="cases")
 
 
-@SCENE.quantity("table", names=figure_names)
+@SCENE.quantity("table", words=FIGURES_WORDS, names=figure_names)
 def figures(scene: Scene) -> int:
-    """What forces and velocities are: 1 result, 2 best_iterate: no result, 3 lock: balance the live load, 0 none."""
+    """As a number."""
     return FIGURES.index(scene.figures)
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sized
+
 import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
@@ -22,6 +24,20 @@ _MECHANICS = Group[Mechanics](lambda scene: scene.mechanics, table="points")
 def figure_names(_: Scene) -> tuple[str, ...]:
     """What numbers of ``figures`` stand for."""
     return FIGURES
+
+
+FIGURES_WORDS = (
+    "what forces and velocities are: 1 result, 2 best_iterate: no result, 3 lock: balance the live load, 0 none"
+)
+
+
+def declare_figures(group: Group[Scene], files: str, dims: str, rows: Callable[[Scene], Sized]) -> None:
+    """What forces and velocities are, in every row."""
+
+    @group.quantity(files, words=FIGURES_WORDS, dims=dims, names=figure_names)
+    def figures(scene: Scene) -> IntArray:
+        """The same in all of them."""
+        return np.full(len(rows(scene)), FIGURES.index(scene.figures))
 
 
 def mode_names(_: Scene) -> list[str]:
@@ -55,10 +71,7 @@ _CONTACTS.fields(
 )
 
 
-@POINTS.quantity("table contacts", dims="point", names=figure_names)
-def figures(scene: Scene) -> IntArray:
-    """What forces and velocities are: 1 result, 2 best_iterate: no result, 3 lock: balance the live load, 0 none."""
-    return np.full(len(scene.contacts.points), FIGURES.index(scene.figures))
+declare_figures(POINTS, "table contacts", "point", lambda scene: scene.contacts.points)
 
 
 @POINTS.quantity("table", like=OWN["contact_forces"])

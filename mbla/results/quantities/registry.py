@@ -44,5 +44,6 @@ def held(record: type, group: str) -> dict[str, str]:
 
 
 CASE_COLUMNS, BLOCK_COLUMNS = columns_of("cases"), columns_of("blocks")
-OF_CASE = {each.name: each for each in CASE_COLUMNS}
+COLUMN = {each.name: each for each in CASE_COLUMNS}
+"""columns of load cases by name"""
 INTERFACE_COLUMNS, POINT_COLUMNS = columns_of("interfaces"), columns_of("points")

@@ -5,10 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from mbla.arrays import FloatArray
 from mbla.model.model import Model
 from mbla.questions.travel_position import TravelPosition
-from mbla.results.quantities.group import Group
+from mbla.results.quantities.group import Field, Group
 from mbla.results.results import CaseResult, Results
 from mbla.results.series import Series, factor_of, position_of, series_of
 
@@ -48,28 +47,13 @@ def case(position: Position) -> str:
     return position.case.load_case.name
 
 
-@POSITIONS.quantity("table", name="position")
-def number(position: Position) -> int:
-    """Number of the position, from 1."""
-    return position.travel.number
-
-
-@POSITIONS.quantity("table")
-def count(position: Position) -> int:
-    """Positions on the path."""
-    return position.travel.count
-
-
-@POSITIONS.quantity("table", dims="axis", unit="length")
-def point(position: Position) -> FloatArray:
-    """Where the first axle stands, or the only force."""
-    return position.travel.point
-
-
-@POSITIONS.quantity("table", unit="length")
-def distance(position: Position) -> float:
-    """Its distance along the path, of which it may be off."""
-    return position.travel.distance
+POSITIONS.of(lambda position: position.travel).fields(
+    TravelPosition,
+    position=Field("number of the position, from 1", files="table", attribute="number"),
+    count=Field("positions on the path", files="table"),
+    point=Field("where the first axle stands, or the only force", "axis", unit="length", files="table"),
+    distance=Field("its distance along the path, of which it may be off", unit="length", files="table"),
+)
 
 
 @POSITIONS.quantity("table", rule="open")
@@ -85,10 +69,7 @@ def axles(position: Position) -> str:
     return " ".join(f"{place:.9g}" for place in position.travel.distances.tolist())
 
 
-@POSITIONS.quantity("table")
-def status(position: Position) -> str:
-    """Status."""
-    return position.case.status.value
+POSITIONS.of(lambda position: position.case).fields(CaseResult, status=Field("status", files="table"))
 
 
 @POSITIONS.quantity("table", rule="open")

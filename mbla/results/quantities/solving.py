@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from mbla.program.reductions import ProgramSize, ReductionStep
-from mbla.results.quantities.group import Field, Group
+from mbla.results.quantities.group import Field, Group, count
 from mbla.solution.solution import (
     IterationRecord,
     ModelSize,
@@ -137,10 +137,7 @@ ITERATIONS.fields(
 )
 
 
-@SHOWN.quantity("table json")
-def programs(solution: Solution) -> int:
-    """Programs solved."""
-    return len(solution.programs)
+SHOWN.fields(Solution, programs=Field("programs solved", by=count, files="table json"))
 
 
 @SHOWN.quantity("table json")

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from mbla.arrays import FloatArray
 from mbla.results.collapse.mechanics import SupportReaction, reactions_of
 from mbla.results.quantities.group import Group
+from mbla.results.quantities.points import FIGURES_WORDS
 from mbla.results.record.scene import Scene
 
 
@@ -35,9 +36,9 @@ def support(row: SupportRow) -> str:
     return row.found.support
 
 
-@REACTIONS.quantity("table")
+@REACTIONS.quantity("table", words=FIGURES_WORDS)
 def figures(row: SupportRow) -> str:
-    """What forces and velocities are: 1 result, 2 best_iterate: no result, 3 lock: balance the live load, 0 none."""
+    """By name."""
     return row.scene.figures
 
 

@@ -12,14 +12,14 @@ from mbla.results.assessment import Assessment
 from mbla.results.outcome import RESIDUALS, answer_bounds, answer_of, distinct
 from mbla.results.quantities import further, solving
 from mbla.results.quantities.group import Field
-from mbla.results.quantities.registry import OF_CASE, STORED_BY_PATH
+from mbla.results.quantities.registry import COLUMN, STORED_BY_PATH
 from mbla.results.record.objects import Object
 from mbla.results.record.scene import Scene
 from mbla.solution.further.geometric_safety.geometric_safety import GeometricSafety
 
 REACTION = Object[Scene](owner=lambda scene: scene if scene.solved.load_case.question.group == "reaction" else None)
 BEST = Object[Scene](
-    replace(OF_CASE["best_iterate_load_factor"], name="load_factor", words="its load factor, which is not a result"),
+    replace(COLUMN["best_iterate_load_factor"], name="load_factor", words="its load factor, which is not a result"),
     owner=lambda scene: None if scene.best is None else scene,
 )
 STANDING = Object[Scene](
@@ -28,7 +28,8 @@ STANDING = Object[Scene](
 )
 SOLVER = Object[Scene]()
 TIME = Object[Scene](
-    replace(OF_CASE["seconds"], name="total", open=True), replace(OF_CASE["solver_seconds"], name="solver", open=True)
+    replace(COLUMN["seconds"], name="total", open=True),
+    replace(COLUMN["solver_seconds"], name="solver", open=True),
 )
 REDUCTION, PROGRAM_SIZE = Object[ReductionStep](*solving.REDUCTIONS.quantities), Object[ProgramSize]()
 GEOMETRIC_SAFETY = Object[GeometricSafety](owner=further.GEOMETRIC_SAFETY.owner)
@@ -120,7 +121,7 @@ GEOMETRIC_SAFETY.fields(
     factor=Field("the factor that forces show: the size of the joints over the least one"),
     most=Field("a factor that a mechanism shows not to be reached; null where none is known", rule="open"),
 )
-GEOMETRIC_SAFETY.quantities += further.GEOMETRIC_SAFETY.quantities[-2:]
+GEOMETRIC_SAFETY.quantities += [STORED_BY_PATH[f"cases/*/geometric_safety/{name}"] for name in ("solves", "verified")]
 ASSESSMENT.fields(
     Assessment,
     code=Field("in words"),

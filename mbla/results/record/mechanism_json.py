@@ -15,7 +15,7 @@ from mbla.results.collapse.rigid_parts import moving_share
 from mbla.results.collapse.rigid_parts import reach as reach_of
 from mbla.results.outcome import dimension_of
 from mbla.results.quantities.group import Field, count, total
-from mbla.results.quantities.registry import OF_CASE
+from mbla.results.quantities.registry import COLUMN
 from mbla.results.record.mechanism_lines import CRACK, HINGE_LINE, PART, SLIDING_PLANE, YIELD_LINE, Part
 from mbla.results.record.objects import Object
 from mbla.results.record.scene import Scene
@@ -72,9 +72,9 @@ def reach(scene: Scene) -> str:
 
 
 MECHANISM.quantities += [
-    OF_CASE["moving_blocks"],
-    replace(OF_CASE["moving_weight_share"], words="their share of the weight of the free blocks"),
-    OF_CASE["moving_parts"],
+    COLUMN["moving_blocks"],
+    replace(COLUMN["moving_weight_share"], words="their share of the weight of the free blocks"),
+    COLUMN["moving_parts"],
 ]
 
 

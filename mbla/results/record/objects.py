@@ -92,12 +92,6 @@ class Object(Group[Owner]):
         """Declare the function that follows; ``items``: what each item is, and what each of its items is."""
         return self.quantity(items=items, **said)
 
-    def of(self, owner: Callable[[Any], Any]) -> Object[Any]:
-        """What declares quantities of another owner as keys of this object."""
-        other = Object[Any](owner=owner)
-        other.quantities = self.quantities
-        return other
-
     def holds(self, name: str, group: Group[Any], words: str, *items: str) -> None:
         """Declare a group as a key: a list where it has rows, else null where there may be no such thing."""
         of = partial(_owner if group.rows is None else _rows, group)
@@ -152,7 +146,7 @@ def _keys(path: str, annotation: str, words: tuple[str, ...], unit: UnitKind) ->
     plain = annotation.removesuffix(" | None")
     null = "?" if plain != annotation else ""
     outer = re.fullmatch(
-        r"(list|tuple|dict|Sequence)\[(?:(?<=dict\[)str, )?(.+?)(?:, (?:\.\.\.|int))?\]", LISTS.get(plain, plain)
+        r"(list|tuple|dict|Sequence)\[(?:(?<=dict\[)str, )?(.+?)(?:, (?:\.\.\.|\w+))?\]", LISTS.get(plain, plain)
     )
     if outer is None:
         kind = TYPES.get(KINDS.get(plain, ""), "object")

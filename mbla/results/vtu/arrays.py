@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
 from mbla.results.quantities.quantity import Quantity, flag, integer, real
 from mbla.results.quantities.registry import BLOCK_COLUMNS, INTERFACE_COLUMNS, POINT_COLUMNS
+from mbla.results.quantities.ties import TIES
 from mbla.results.record.scene import Scene
 
 Arrays = dict[str, np.typing.NDArray[Any]]
@@ -32,6 +34,7 @@ _LOADS = (
     flag("fixed", "1 where that block does not move, and its load goes into its support"),
     integer("figures", "what reactions and motion are, as of interfaces"),
 )
+_TIES = {each.name: each for each in TIES.quantities}
 OTHERS: dict[tuple[str, str], tuple[Quantity, ...]] = {
     **{(file, "points"): (_MOTION,) for file in ("blocks", "frames", "contacts", "interfaces", "thrust", "hinges")},
     ("thrust", "cells"): (
@@ -43,12 +46,10 @@ OTHERS: dict[tuple[str, str], tuple[Quantity, ...]] = {
     ("ties", "points"): (_MOTION,),
     ("ties", "cells"): (
         integer("tie", "number of the tie, from 0"),
-        real("least", "least force, tension positive", "force"),
-        real("greatest", "greatest force", "force"),
-        real("prestress", "force when it was fitted", "force"),
-        real("tie_forces", "force", "force"),
-        real("tie_rates", "elongation rate for unit power of the live load", "velocity"),
-        real("use", "share of the greatest force in its sense"),
+        *(_TIES[name] for name in ("least", "greatest", "prestress")),
+        replace(_TIES["force"], name="tie_forces", words="force"),
+        replace(_TIES["rate"], name="tie_rates"),
+        _TIES["use"],
         integer("state", "0 holds, 1 yields, 2 slack, 3 fill at its passive limit, 4 at its active one"),
         integer("figures", "what forces and motion are, as of interfaces"),
     ),

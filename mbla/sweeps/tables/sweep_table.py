@@ -9,7 +9,10 @@ from typing import Any
 import numpy as np
 
 from mbla.arrays import IntArray
+from mbla.deck.units import Units
+from mbla.results.quantities.group import Field, Group
 from mbla.results.record.scene import Values
+from mbla.results.tables.table import unit_in
 from mbla.sweeps.design.design import Design, DesignDimension
 from mbla.sweeps.design.design import SweepColumn as SweepColumn
 from mbla.sweeps.plan import Plain, PointOutcome
@@ -69,14 +72,19 @@ def with_columns(table: SweepTable, columns: Sequence[tuple[SweepColumn, Values]
 
 
 POINT = SweepColumn("point", "", "number of the point in the design, from 1", "int", "number")
-STATE = SweepColumn("state", "", "done: every load case has a verified answer; failed: one has none", "text", "state")
-AFTER = (
-    SweepColumn("exit_code", "", "exit status that `mbla run` of the same deck ends with", "int", "exit_code"),
-    SweepColumn("reason", "", "why it failed or has no load factor", "text", "reason"),
-    SweepColumn("tries", "", "how often it was begun", "int", "tries"),
-    SweepColumn("seconds", "s", "time by the clock, of the last try", "float", "seconds"),
+OUTCOME = Group[PointOutcome](lambda outcome: outcome)
+OUTCOME.fields(
+    PointOutcome,
+    state=Field("done: every load case has a verified answer; failed: one has none"),
+    exit_code=Field("exit status that `mbla run` of the same deck ends with"),
+    reason=Field("why it failed or has no load factor"),
+    tries=Field("how often it was begun"),
+    seconds=Field("time by the clock, of the last try", unit="time"),
 )
-"""columns after the results"""
+STATE, *AFTER = (
+    SweepColumn(each.name, unit_in(each, Units()), each.words, each.kind, each.name) for each in OUTCOME.quantities
+)
+"""columns before and after the results"""
 
 
 def sweep_table(

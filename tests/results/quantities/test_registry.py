@@ -45,6 +45,17 @@ def test_what_is_no_field_of_a_dataclass_is_refused() -> None:
         group.fields(Stone, weight=Field("weight"))
 
 
+def test_a_type_that_files_cannot_hold_is_refused() -> None:
+    group = Group[Stone](lambda stone: stone, file="stones")
+
+    def masses(stone: Stone) -> dict[str, float]:
+        """Masses by name."""
+        return {"stone": stone.mass}
+
+    with pytest.raises(TypeError, match="masses: dict"):
+        group.quantity()(masses)
+
+
 def test_a_quantity_is_what_its_function_says(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("mbla.results.quantities.group.DECLARED", [])
     group = Group[Stone](lambda stone: stone, file="stones", table="stones", part="found")
