@@ -20,7 +20,6 @@ import numpy as np
 
 from mbla.codes.assess import assessment_of
 from mbla.deck import Deck
-from mbla.deck.deck import sha256_of
 from mbla.errors import DeckError, FileError, Notice
 from mbla.model.model import LoadCase
 from mbla.program.assemble import yield_limits
@@ -32,7 +31,7 @@ from mbla.results.hdf5.content import content_of
 from mbla.results.hdf5.layout import Content, Value
 from mbla.results.hdf5.result_file import differences_of_file, read_asked, read_results_hdf5, write_results_hdf5
 from mbla.results.outcome import WITH_VALUE, least_factor, locked_in, presumes_standing
-from mbla.results.provenance import as_expected, deck_of, notices_of, settings_in_words, with_loads_found
+from mbla.results.provenance import as_expected, deck_of, has_its_hash, notices_of, settings_in_words, with_loads_found
 from mbla.results.results import CaseResult, PathAgain, PushoverAgain, Results
 from mbla.results.verification.asked import (
     Found,
@@ -226,7 +225,7 @@ def rebuilt(results: Results, asked: Content) -> tuple[Deck | None, tuple[str, .
     """
     record = results.deck
     differences = []
-    if sha256_of([*(text for _, text in record.sources), *record.overrides]) != record.sha256:
+    if not has_its_hash(record):
         differences.append("the hash of the deck is not that of its text")
     if record.sources[0][0] != record.name:
         differences.append("the deck does not have the name of its text")

@@ -17,6 +17,7 @@ from pathlib import Path
 from mbla import __version__
 from mbla.assembly.assembly import Assembly
 from mbla.deck import Deck, read_deck
+from mbla.deck.deck import sha256_of
 from mbla.deck.sections.accuracy import knobs_of
 from mbla.deck.text.include import confined
 from mbla.errors import FileError, Notice
@@ -117,6 +118,11 @@ def deck_record(deck: Deck) -> DeckRecord:
         sha256=deck.sha256,
         files=tuple(dict(_side_files(deck)).items()),
     )
+
+
+def has_its_hash(record: DeckRecord) -> bool:
+    """Whether the hash of a deck on record is that of its texts and overrides."""
+    return sha256_of([*(text for _, text in record.sources), *record.overrides]) == record.sha256
 
 
 def _side_files(deck: Deck) -> Iterator[tuple[str, bytes]]:

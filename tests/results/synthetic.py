@@ -12,6 +12,7 @@ import numpy as np
 
 from mbla.assembly.assembly import Assembly
 from mbla.contacts.contacts import ContactReport, Contacts
+from mbla.deck.deck import sha256_of
 from mbla.deck.sections.assessment import AssessmentSection
 from mbla.deck.units import Units
 from mbla.errors import Message, Notice
@@ -258,7 +259,7 @@ def tower_results(flow_rule: str = "non_associative") -> Results:
     nothing = Checks(nan, nan, nan, nan, nan, nan, nan, nan, nan, True, ())
     notices = (*model.notices, *tower_contacts().report.notices)
     return Results(
-        deck=DeckRecord("tower.yaml", (("tower.yaml", DECK), ("b.yaml", "")), (), "ab" * 32),
+        deck=DeckRecord("tower.yaml", (("tower.yaml", DECK), ("b.yaml", "")), (), sha256_of([DECK, ""])),
         assembly=Assembly(model, tower_contacts()),
         cases=(
             CaseResult(model.load_cases[0], solution, checks, Status.SOLVED),
@@ -300,7 +301,8 @@ def full_results() -> Results:
     full = replace(case, load_case=model.load_cases[0], solution=full_solution(case.solution), checks=checks)
     files = (("stones.obj", b"v 0 0 0\n"), ("meshes/none.bin", b""), ("x.csv", b"\xff\x00"))
     sources = (("tower.yaml", DECK.replace("push_x: {", ASKED) + NOT_RUN + ROD), *results.deck.sources[1:])
-    deck = replace(results.deck, sources=sources, files=files)
+    sha256 = sha256_of(text for _, text in sources)
+    deck = replace(results.deck, sources=sources, sha256=sha256, files=files)
     assembly = Assembly(model, contacts)
     cases = (replace(full, assessment=VERDICT), results.cases[1])
     return replace(results, deck=deck, assembly=assembly, cases=cases, complete=False, not_done=("slide",))

@@ -25,6 +25,7 @@ from mbla.results.hdf5.layout import (
     text_of,
 )
 from mbla.results.hdf5.restore import LOADS_FOUND, built_again, deck_record, results_from, with_loads_found
+from mbla.results.provenance import has_its_hash
 from mbla.results.quantities.quantity import Quantity
 from mbla.results.quantities.registry import OF_MODEL, OF_RUN
 from mbla.results.results import Results
@@ -72,12 +73,16 @@ SAME_PLACE = 1e-6
 def results_of(file: h5py.File, path: Path, *, to_verify: bool = False) -> Results:
     """Results of an open file: model and contacts from the deck in it, all else from its arrays.
 
-    to_verify : centroids and contact points may be others than those of the deck: a verification says where they are
+    to_verify : the deck may have been changed, and centroids and contact points be others than its own: a verification
+                says so
     """
     attributes, file_bytes = _read_attributes(file, path), path.stat().st_size
     sizes: dict[str, int] = {"axis": 3, "direction": 3, "component": 6, "pair": 2, "unit": 3}
     run = _read_content(file, file_bytes, [(each.path, each) for each in OF_RUN], sizes)
     record = deck_record(run, attributes)
+    if not to_verify and not has_its_hash(record):
+        words = "its deck was changed after the run: run the deck again, mbla verify says what differs"
+        raise FileError("damaged-result-file", f"{path}: {words}")
     assembly = built_again(record, path)
     sizes |= sizes_of(assembly)
     for name in (name for name in sizes if name in SHARED_DIMENSIONS and name in file):

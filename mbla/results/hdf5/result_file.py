@@ -99,10 +99,10 @@ def _image() -> Iterator[tuple[io.BytesIO, h5py.File]]:
 def read_results_hdf5(path: Path, *, to_verify: bool = False) -> Results:
     """Results from a file: its deck builds model and contacts again, its arrays are what was found.
 
-    to_verify : blocks and contact points may be elsewhere than those of its deck: a verification says where they are
+    to_verify : its deck may have been changed, and blocks and contact points be elsewhere: a verification says so
 
     Raises FileError where the file cannot be read, is not an mbla result, has another layout version or is damaged,
-    and where its arrays are not of what its deck gives.
+    and where its deck was changed or its arrays are not of what that gives.
     """
     import h5py
 

@@ -83,6 +83,19 @@ def test_forces_are_not_put_on_blocks_and_points_that_are_elsewhere(path: Path, 
     read_results_hdf5(path, to_verify=True)
 
 
+@pytest.mark.parametrize(("old", "new"), [("friction: 0.6", "friction: 0.5"), ("=5/9.81", "=6/9.81")])
+def test_forces_of_another_deck_text_are_not_read(path: Path, old: str, new: str) -> None:
+    """Where blocks and contact points are the same; a verification reads them, to say what differs."""
+    with changing(path) as file:
+        texts = [text.decode() for text in file["deck/source_texts"]]
+        assert old in texts[0]
+        del file["deck/source_texts"]
+        file["deck/source_texts"] = [text.replace(old, new).encode() for text in texts]
+    with pytest.raises(FileError, match="its deck was changed after the run: run the deck again, mbla verify says"):
+        read_results_hdf5(path)
+    read_results_hdf5(path, to_verify=True)
+
+
 @pytest.mark.parametrize(
     ("gaps", "words"),
     [(np.ones(3), "contacts/gaps: 3 along interface, which has 2"), (np.ones((2, 1)), "the layout has 1")],
