@@ -35,7 +35,8 @@ def add(commands: Any) -> None:
     command.add_argument("--case", action="append", default=[], metavar="NAME", help="only this load case (repeatable)")
     words = "only these tables, such as blocks,interfaces,points"
     command.add_argument("--table", type=names, default=[], metavar="NAME,...", help=words)
-    command.add_argument("--force", action="store_true", help="replace earlier files")
+    words = "replace earlier files (those with the same content are not in the way)"
+    command.add_argument("--force", action="store_true", help=words)
 
 
 def export(options: argparse.Namespace) -> int:

@@ -145,7 +145,9 @@ def export_results(
     parquet: bool = False,
     force: bool = False,
 ) -> list[Path]:
-    """Write ``STEM_TABLE.csv`` and ``STEM_TABLE.parquet``; the paths written.
+    """Write ``STEM_TABLE.csv`` and ``STEM_TABLE.parquet``; their paths.
+
+    Files that are there already with the same content, such as the curve that the run wrote, stay as they are.
 
     cases, tables : only these; all where none is named
 
@@ -154,16 +156,28 @@ def export_results(
     UsageError
         No such load case or table, or the extra for Parquet is not installed.
     FileError
-        A file is there already and ``force`` is not set, or cannot be written.
+        A file is there already with another content and ``force`` is not set, or cannot be written.
     """
     chosen = tables_of(results, tables or None, cases or None)
+    files: dict[str, bytes] = {}
+    for name, table in chosen.items():
+        if csv:
+            files[f"{stem}_{name}.csv"] = table_csv(table).encode()
+        if parquet:
+            files[f"{stem}_{name}.parquet"] = table_parquet(table, _about(results, table))
     with OutputFolder(folder, stem, force, secondary=True) as out:
-        for name, table in chosen.items():
-            if csv:
-                out.write_text(f"{stem}_{name}.csv", table_csv(table))
-            if parquet:
-                out.write_bytes(f"{stem}_{name}.parquet", table_parquet(table, _about(results, table)))
-    return [folder / name for name in out.names]
+        for name, content in files.items():
+            if not _is_there(folder / name, content):
+                out.write_bytes(name, content)
+    return [folder / name for name in sorted(files)]
+
+
+def _is_there(path: Path, content: bytes) -> bool:
+    """Whether a file has that content already."""
+    try:
+        return path.is_file() and path.read_bytes() == content
+    except OSError:
+        return False
 
 
 def _about(results: Results, table: Table) -> dict[str, str]:

@@ -15,9 +15,12 @@ from pyarrow import parquet
 
 from mbla.cli import main
 from mbla.deck.units import Units
+from mbla.process.run_options import RunOptions
 from mbla.results.hdf5.result_file import write_results_hdf5
 from mbla.results.results import Results
 from mbla.results.tables.tables import TABLES, export_results, tables_of
+from mbla.run import run
+from tests.line import BLOCK
 from tests.results.synthetic import full_results
 
 
@@ -89,12 +92,25 @@ def test_the_command_writes_beside_the_result(tmp_path: Path, capsys: pytest.Cap
     path.write_bytes(write_results_hdf5(full_results()))
     assert main(["export", str(path), "--table", "cases,points"]) == 0
     assert capsys.readouterr().out.split() == [str(tmp_path / f"tower_{name}.csv") for name in ("cases", "points")]
+    (tmp_path / "tower_cases.csv").write_text("of mine\n", encoding="utf-8")
     assert main(["export", str(path), "--table", "cases"]) == 6
     assert main(["export", str(path), "--table", "cases", "--force"]) == 0
+    assert main(["export", str(path), "--table", "cases"]) == 0
     assert main(["export", str(path), "--table", "beams", "--force"]) == 2
     assert main(["export", str(path), "--case", "beams", "--force"]) == 2
     assert main(["export", str(tmp_path / "none.h5")]) == 6
     assert path.exists()
+
+
+def test_the_curve_that_the_run_wrote_is_not_in_the_way(tmp_path: Path) -> None:
+    """It is the table of that name, and stays as it is."""
+    (tmp_path / "deck.yaml").write_text(BLOCK, encoding="utf-8")
+    pushed = ("parameters.mu=0.8", "load_cases.push.pushover={step: 0.1, until: 0.2, error: true}")
+    run(tmp_path / "deck.yaml", RunOptions(folder=tmp_path, overrides=pushed))
+    before = (curve := tmp_path / "deck_curve.csv").stat()
+    assert main(["export", str(tmp_path / "deck.h5")]) == 0
+    assert (curve.stat().st_ino, curve.stat().st_mtime_ns) == (before.st_ino, before.st_mtime_ns)
+    assert (tmp_path / "deck_blocks.csv").exists()
 
 
 def test_csv_needs_no_extra(tmp_path: Path) -> None:
