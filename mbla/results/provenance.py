@@ -66,25 +66,42 @@ def settings_in_words(deck: Deck, settings: SolverSettings) -> dict[str, str]:
         "accuracy": analysis.accuracy,
         "solver": analysis.solver,
         **{name: f"{getattr(settings, name):g}" for name in ("tolerance", "gap", "residual")},
-        "search": f"{settings.search:g}",
+        "search": f"{settings.search:g}" + ("" if analysis.search is None else ", in space as well"),
         **{name: str(getattr(knobs, name)).lower() for name in ("torsion", "standing")},
         "max_iterations": str(settings.max_iterations),
         "contact_points": _points_in_words(deck),
         "contact_tolerance": f"{deck.contacts.tolerance:g}",
     }
-    if deck.contacts.joint_thickness is not None:
-        words["joint_thickness"] = f"{deck.contacts.joint_thickness:g} {deck.units.length}"
-    if deck.contacts.overlap_tolerance is not None:
-        words["overlap_tolerance"] = f"{deck.contacts.overlap_tolerance:g}"
+    words |= _contacts_in_words(deck)
     if analysis.flow_rule == "non_associative":
         words["scheme"] = analysis.scheme
         parameters = getattr(analysis, analysis.scheme, None)  # none for auto
         if parameters is not None:
             words |= {f"scheme_{name}": f"{value:g}" for name, value in parameters.model_dump().items()}
+    if settings.by_elastic_path:
+        words |= {f"path_{name}": f"{value:g}" for name, value in analysis.path.model_dump().items()}
     if not analysis.reductions:
         words["reductions"] = "false"
+    if analysis.sensitivity is not False:
+        words["sensitivity"] = "true" if analysis.sensitivity is True else ", ".join(analysis.sensitivity)
+    if analysis.geometric_safety:
+        words["geometric_safety"] = "true"
     if analysis.time_limit is not None:
         words["time_limit"] = f"{analysis.time_limit:g} s"
+    return words
+
+
+def _contacts_in_words(deck: Deck) -> dict[str, str]:
+    """What the deck says of finding contacts, beside points and tolerance."""
+    contacts, words = deck.contacts, dict[str, str]()
+    if contacts.joint_thickness is not None:
+        words["joint_thickness"] = f"{contacts.joint_thickness:g} {deck.units.length}"
+    if contacts.overlap_tolerance is not None:
+        words["overlap_tolerance"] = f"{contacts.overlap_tolerance:g}"
+    if contacts.table is not None:
+        words["contact_table"] = contacts.table
+    if contacts.isolated != "fail":
+        words["isolated"] = contacts.isolated
     return words
 
 
