@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from mbla.errors import FileError
 from mbla.process.run_options import RunOptions
 from mbla.results.exit_status import exit_code
 from mbla.results.findings import NOT_FOLLOWED
@@ -19,7 +20,7 @@ from mbla.run import run
 from mbla.solution.pushover.record import PushedRows, RowPoints
 from mbla.verify import rebuilt, recomputed, verify_file
 from tests.line import BLOCK
-from tests.results.changed_files import written
+from tests.results.changed_files import change, written
 from tests.results.listing.sections.test_pushover import TABLE
 
 ROCKS = ("parameters.mu=0.8", "load_cases.push.pushover={step: 0.05, until: 0.2, error: false}")
@@ -129,6 +130,26 @@ def test_points_of_another_joint_law_of_the_deck(tmp_path: Path) -> None:
 
     assert said_of(tmp_path, forged(results, lambda rows: rows)) == ""
     assert "step 1 of the pushover has contact points with a joint law" in said_of(tmp_path, forged(results, change))
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "says"),
+    [
+        ("laws", 7, "damaged: cases/push/pushed/law points outside the joint laws, or the ties, of the deck"),
+        ("laws", -5, "damaged: cases/push/pushed/law points outside"),
+        ("bodies", -5, "damaged: cases/push/pushed/bodies points outside the 2 bodies"),
+        ("bodies", 2, "damaged: cases/push/pushed/bodies points outside the 2 bodies"),
+        ("bodies", -1, "damaged: cases/push/pushed/law points outside"),
+    ],
+)
+def test_points_of_bodies_and_laws_that_are_not_there(
+    name: str, value: int, says: str, rocks: Results, tmp_path: Path
+) -> None:
+    """The file is refused, by the name of the array."""
+    path = written(tmp_path, rocks)
+    change(path, f"cases/push/pushed/{'law' if name == 'laws' else name}", value)
+    with pytest.raises(FileError, match=says):
+        verify_file(path)
 
 
 def test_friction_that_loads_do_not_pay_for(slides: Results, tmp_path: Path) -> None:

@@ -414,7 +414,7 @@ def full_solution(solution: Solution) -> Solution:
                         host=np.array([True, False]),
                         arms=np.arange(12.0).reshape(2, 2, 3),
                         frames=np.arange(18.0).reshape(2, 3, 3),
-                        laws=np.array([0, 1]),
+                        laws=np.array([1, 0]),
                         areas=np.array([[0.1, 0.2], [0.0, 0.3]]),
                         history=np.arange(6.0).reshape(2, 3),
                         forces=np.arange(6.0, 12.0).reshape(2, 3),

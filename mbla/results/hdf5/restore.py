@@ -10,6 +10,8 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from mbla.assembly import Assembly, build_assembly
 from mbla.errors import DeckError, FileError, Notice
 from mbla.model import build_model
@@ -100,6 +102,7 @@ def results_from(content: Content, attributes: dict[str, str | int], record: Dec
     )
     for case in cases:
         check_carriers(assembly, case)
+        check_rows(assembly, case)
     return Results(
         deck=record,
         assembly=assembly,
@@ -125,6 +128,28 @@ def check_carriers(assembly: Assembly, case: CaseResult) -> None:
         carriers = assembly.of(replace(case.load_case, question=LOAD_FACTOR)).contacts.points
         if any(len(forces) != len(carriers) for forces in found):
             raise ValueError(f"{case.load_case.name}: forces of another number of contact points and ties")
+
+
+def check_rows(assembly: Assembly, case: CaseResult) -> None:
+    """Raises ValueError where contact points of a pushover are of bodies, joint laws or ties that are not there.
+
+    Those of a row are points of solids and grounds, and after them ties, whose bodies are −1.
+    """
+    rows = case.solution.further.pushover.rows
+    if rows is None:
+        return
+    model, solids = assembly.model.of_case(case.load_case), assembly.glued(case.load_case).model.blocks
+    bodies, laws, place = rows.points.bodies, rows.points.laws, f"cases/{case.load_case.name}/pushed"
+    tie = bodies[:, 0] < 0
+    n_bodies = len(solids) + len(model.grounds)
+    if (bodies[tie] != -1).any() or (bodies[~tie] < 0).any() or (bodies >= n_bodies).any():
+        raise ValueError(f"{place}/bodies points outside the {n_bodies} bodies, or at none that is a tie")
+    after_tie = tie[:-1] & ~tie[1:]
+    after_tie[np.setdiff1d(rows.point_start[1:-1], [0, len(tie)]) - 1] = False
+    if after_tie.any():
+        raise ValueError(f"{place}/bodies has ties before contact points of their row")
+    if (laws < 0).any() or (laws >= np.where(tie, len(model.ties), len(model.joints))).any():
+        raise ValueError(f"{place}/law points outside the joint laws, or the ties, of the deck")
 
 
 def _part(content: Content, prefix: str) -> dict[str, Any]:
