@@ -31,7 +31,15 @@ from mbla.results.hdf5.content import content_of
 from mbla.results.hdf5.layout import Content, Value
 from mbla.results.hdf5.result_file import differences_of_file, read_asked, read_results_hdf5, write_results_hdf5
 from mbla.results.outcome import WITH_VALUE, least_factor, locked_in, presumes_standing
-from mbla.results.provenance import as_expected, deck_of, has_its_hash, notices_of, settings_in_words, with_loads_found
+from mbla.results.provenance import (
+    as_expected,
+    deck_of,
+    has_its_hash,
+    notices_of,
+    settings_in_words,
+    threads_in_words,
+    with_loads_found,
+)
 from mbla.results.results import CaseResult, PathAgain, PushoverAgain, Results
 from mbla.results.verification.asked import (
     Found,
@@ -250,7 +258,7 @@ def _read_again(results: Results, asked: Content, *, expected: bool) -> tuple[De
 
 def _content(deck: Deck, results: Results, folder: Path) -> Content:
     """The content of a file of the deck's model, without what only solving finds."""
-    threads = {name: words for name, words in results.settings.items() if name == "threads"}  # no deck says them
+    threads = {"threads": threads_in_words(results.cases)} if results.cases else {}  # no deck says them
     built = replace(
         results,
         notices=notices_of(deck, results.assembly),

@@ -292,6 +292,13 @@ def test_what_follows_is_found_again(name: str, path: Path) -> None:
     assert f"cases/push/{name} is " in differences(path)
 
 
+def test_threads_are_those_that_the_programs_ran_on(path: Path) -> None:
+    with changing(path) as file:
+        names = [name.decode() for name in file["provenance/setting_names"]]
+        file["provenance/setting_values"][names.index("threads")] = b"64"
+    assert differences(path) == "provenance/setting_values is not what the deck in the file gives"
+
+
 def test_datasets_and_attributes_that_nothing_reads_are_compared(path: Path) -> None:
     with changing(path) as file:
         file["cases/push/collapse_load"] = 9.81
@@ -306,6 +313,7 @@ def test_datasets_and_attributes_that_nothing_reads_are_compared(path: Path) -> 
 def test_what_the_run_alone_can_tell_is_marked(path: Path) -> None:
     with changing(path) as file:
         assert file["cases/push/reason"].attrs["verification"] == f"not verified: {UNVERIFIED['words']}".encode()
+        assert file["cases/push/remembered"].attrs["verification"] == f"not verified: {UNVERIFIED['history']}".encode()
         assert "verification" not in file["cases/push/load_factor"].attrs
         file["cases/push/seconds"][...] = 3600.0
     assert differences(path) == ""

@@ -20,7 +20,7 @@ from mbla.run import run
 from mbla.solution.pushover.record import PushedRows, RowPoints
 from mbla.verify import rebuilt, recomputed, verify_file
 from tests.line import BLOCK
-from tests.results.changed_files import change, written
+from tests.results.changed_files import change, changing, written
 from tests.results.listing.sections.test_pushover import TABLE
 
 ROCKS = ("parameters.mu=0.8", "load_cases.push.pushover={step: 0.05, until: 0.2, error: false}")
@@ -132,6 +132,17 @@ def test_points_of_another_joint_law_of_the_deck(tmp_path: Path) -> None:
     assert "step 1 of the pushover has contact points with a joint law" in said_of(tmp_path, forged(results, change))
 
 
+def with_points(name: str, to: Callable[[np.ndarray], np.ndarray]) -> Change:
+    """Rows with other values of their contact points."""
+    return lambda rows: replace(rows, points=replace(rows.points, **{name: to(getattr(rows.points, name))}))
+
+
+def test_frames_of_points_that_are_not_orthonormal(rocks: Results, tmp_path: Path) -> None:
+    """A normal that is longer finds the same forces on a joint that is as much softer."""
+    file = forged(rocks, with_points("frames", lambda frames: frames * 1.01))
+    assert "step 1 of the pushover has contact points whose frames are not of unit vectors" in said_of(tmp_path, file)
+
+
 @pytest.mark.parametrize(
     ("name", "value", "says"),
     [
@@ -150,6 +161,13 @@ def test_points_of_bodies_and_laws_that_are_not_there(
     change(path, f"cases/push/pushed/{'law' if name == 'laws' else name}", value)
     with pytest.raises(FileError, match=says):
         verify_file(path)
+
+
+def test_what_the_rows_take_from_the_run_is_marked(rocks: Results, tmp_path: Path) -> None:
+    with changing(written(tmp_path, rocks)) as file:
+        group = file["cases/push/pushed"]
+        marked = {name for name in group if "verification" in group[name].attrs}
+    assert marked == {"areas", "at_zero", "fallen", "host", "stiffness"}
 
 
 def test_friction_that_loads_do_not_pay_for(slides: Results, tmp_path: Path) -> None:

@@ -87,12 +87,14 @@ def _declared(answer: str) -> dict[str, Quantity]:
             "point direction",
             unit="force",
             part="{} history",
+            unverified="history",
         ),
         stiffness=Field(
             "path of elastic joints: normal and shear stiffness in that step, force lost for a velocity",
             "point spring",
             unit="stiffness",
             part="{} history",
+            unverified="history",
         ),
         crushed=Field(
             "path of elastic joints: motion by which interfaces that crush had done so before the step of "
@@ -100,6 +102,7 @@ def _declared(answer: str) -> dict[str, Quantity]:
             "interface component",
             unit="velocities",
             part="{} crushed",
+            unverified="history",
         ),
         tie_remembered=Field(
             "the same of ties, as points between their ends, compression positive",
@@ -107,9 +110,15 @@ def _declared(answer: str) -> dict[str, Quantity]:
             unit="force",
             rule="open",
             part="{} history of ties",
+            unverified="history",
         ),
         tie_stiffness=Field(
-            "stiffness of ties in that step", "tie", unit="stiffness", rule="open", part="{} history of ties"
+            "stiffness of ties in that step",
+            "tie",
+            unit="stiffness",
+            rule="open",
+            part="{} history of ties",
+            unverified="history",
         ),
     )
     _declare_motions(place, answer)

@@ -63,7 +63,9 @@ UNVERIFIED = {
     "words": "reasons and remarks in words",
     "standing": "that it stands only by self-stress, or that it is doubtful whether it stands",
     "falls": "which block falls first",
-    "curve": "of a pushover: errors of its load factors, where it jumps, which blocks fall without the rest, its end",
+    "history": "of elastic joints: the forces that they remember, and how stiff they are",
+    "curve": "of a pushover: energies, errors of its load factors, where it jumps, which blocks fall without the rest, "
+    "its end; areas, stiffness and history of contact points, and which body's face carries their frame",
 }
 """kinds of statements by the words that declarations have for them, in the order in which they are told"""
 

@@ -92,7 +92,7 @@ ROWS.fields(
         "rotation vector of each block since step 0", "pushed_row block axis", unit="radian", attribute="turns"
     ),
     fallen=Field("1 for blocks that have fallen without the rest", "pushed_row block", unverified="curve"),
-    stiffness=Field("of joints across and along, force per volume", "pair", unit="bedding"),
+    stiffness=Field("of joints across and along, force per volume", "pair", unit="bedding", unverified="curve"),
     point_start=Field(
         "first contact point of each row; row 0 has none of its own", "pushed_bound", rule="start of pushed_point"
     ),
@@ -100,18 +100,19 @@ ROWS.fields(
 POINTS.fields(
     RowPoints,
     bodies=Field("solids that touch, then grounds; −1 of ties", "pushed_point pair"),
-    host=Field("1 where the second body is the one whose face carries the frame", "pushed_point"),
+    host=Field("1 where the second body is the one whose face carries the frame", "pushed_point", unverified="curve"),
     arms=Field("material point of each body, from its centroid as built", "pushed_point pair axis", unit="length"),
     frames=Field("normal and tangents, in the frame of the body with the face", "pushed_point direction axis"),
     law=Field(
         "joint law, by its place among those of the deck; of ties their number", "pushed_point", attribute="laws"
     ),
-    areas=Field("of the point, for strength and for stiffness", "pushed_point pair", unit="area"),
+    areas=Field("of the point, for strength and for stiffness", "pushed_point pair", unit="area", unverified="curve"),
     at_zero=Field(
         "forces that the point would have if it had not moved",
         "pushed_point direction",
         unit="force",
         attribute="history",
+        unverified="curve",
     ),
     contact_forces=Field(
         "contact forces of the moved blocks, compression positive",

@@ -24,6 +24,9 @@ from mbla.solution.verification.row_laws import row_of_another_law
 NOTABLE = 0.02
 """Energy over the greatest whose loss must have a reason."""
 
+SKEW = 1e-6
+"""Products of the unit vectors of a frame up to which they are at right angles."""
+
 
 def pushover_differences(deck: Deck, assembly: Assembly, case: CaseResult) -> Iterator[str]:
     """Where a pushover is not what its deck and its own rows give, in words.
@@ -49,6 +52,8 @@ def pushover_differences(deck: Deck, assembly: Assembly, case: CaseResult) -> It
         yield failure
     if (row := row_of_another_law(assembly, deck.contacts, load_case, solution.further.pushover.rows)) is not None:
         yield f"step {row} of the pushover has contact points with a joint law that its deck does not give them"
+    if (row := _row_of_skew_frames(solution.further.pushover.rows)) is not None:
+        yield f"step {row} of the pushover has contact points whose frames are not of unit vectors at right angles"
     if _comes_back(solution.further.pushover.rows):
         yield "blocks that have fallen are part of the structure again further on in the pushover"
 
@@ -57,6 +62,16 @@ def _rows_missing(case: CaseResult) -> Iterator[str]:
     without = [row.step for row, says in gaps(case.load_case, case.solution.further.pushover.curve) if not says]
     if without:
         yield f"before step {without[0]} the pushover has no row where its deck asks for one: rows are missing"
+
+
+def _row_of_skew_frames(rows: PushedRows) -> int | None:
+    """The first row with a frame that is not orthonormal, or None."""
+    frames = rows.points.frames[rows.points.bodies[:, 0] >= 0]
+    skew = np.abs(frames @ frames.transpose(0, 2, 1) - np.eye(3)).max(axis=(1, 2), initial=0.0) > SKEW
+    if not skew.any():
+        return None
+    point = int(np.flatnonzero(rows.points.bodies[:, 0] >= 0)[skew.argmax()])
+    return int(np.searchsorted(rows.point_start, point, side="right")) - 1
 
 
 def _comes_back(rows: PushedRows) -> bool:
