@@ -21,15 +21,15 @@ SHOWN = (CurveEnd.NOTHING_LEFT, CurveEnd.FACTOR_REACHED, CurveEnd.REACHED, Curve
 
 
 def end_shown(case: LoadCase, curve: Sequence[CurveRow]) -> CurveEnd:
-    """The end that the last of some rows shows; ``NONE`` where they show none."""
+    """The end that the last of some rows shows, the displacement where it is several; ``NONE`` where they show none."""
     asked, last = case.pushover, curve[-1]
     if asked is None:
         return CurveEnd.NONE
+    if last.displacement >= asked.until * (1.0 - 2.0 * ROUNDING):
+        return CurveEnd.REACHED
     end = asked.until_load_factor
     if case.question.multiplies and last.load_factor <= end + ROUNDING * abs(curve[0].load_factor):
         return CurveEnd.FACTOR_REACHED if end else CurveEnd.NOTHING_LEFT
-    if last.displacement >= asked.until * (1.0 - 2.0 * ROUNDING):
-        return CurveEnd.REACHED
     return CurveEnd.STEPS_DONE if len(curve) > asked.steps else CurveEnd.NONE
 
 

@@ -35,6 +35,7 @@ FALLING = rows(1.0, 0.6, 0.3, 0.1, -0.1)
     [
         ("1", 50, FALLING, CurveEnd.NOTHING_LEFT),
         ("0.4", 50, rows(1.0, 1.0, 1.0, 1.0, 1.0), CurveEnd.REACHED),
+        ("0.4", 50, FALLING, CurveEnd.REACHED),
         ("1", 2, rows(1.0, 1.0, 1.0), CurveEnd.STEPS_DONE),
     ],
 )
