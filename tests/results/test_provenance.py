@@ -33,7 +33,7 @@ def test_no_library_is_imported_for_it() -> None:
     assert done.stdout.strip() == "[]"
 
 
-OTHERS = {
+OTHERS: dict[str, list[Any]] = {
     "analysis.flow_rule": ["associative"],
     "analysis.contact_model": ["convex"],
     "analysis.solver": ["clarabel"],
@@ -82,7 +82,7 @@ def keys_of(section: type[Section], place: str) -> Iterator[str]:
 
 
 def test_no_setting_is_missed_here() -> None:
-    sections = {"analysis": AnalysisSection, "contacts": ContactsSection}
+    sections: dict[str, type[Section]] = {"analysis": AnalysisSection, "contacts": ContactsSection}
     keys = {key for name, section in sections.items() for key in keys_of(section, name)}
     assert keys - OF_MODEL == set(OTHERS)
 
