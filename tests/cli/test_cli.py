@@ -138,10 +138,12 @@ def test_check_solves_nothing_and_writes_nothing(deck: Path, capsys: pytest.Capt
     assert code == 0
     (needs,) = record["needs"].values()
     assert (needs["dimension"], needs["unknown_velocities"], needs["half_lines"]) == (2, 3, 4)
+    assert record["model"]["dimension"] == 2
     planar = next(step for step in needs["reductions"] if step["name"] == "planar")
     assert (planar["state"], planar["before"]["unknowns"], planar["after"]["unknowns"]) == ("applied", 6, 3)
     _, (run,), _ = run_json(capsys, "run", deck, "--json", "-o", deck.parent / "elsewhere")
     assert run["cases"][0]["reductions"] == needs["reductions"]
+    assert run["model"]["dimension"] == 2
     assert not deck.with_suffix(".out").exists()
     assert main(["check", str(deck), "--vtu"]) == 0
     assert f"files: {deck.with_suffix('.out') / 'block_check_*.vtu'}" in capsys.readouterr().out

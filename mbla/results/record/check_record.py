@@ -73,5 +73,6 @@ NOT_OF_CHECKS = ("cases", "series", "objectives", "files", "complete", "not_done
 def check_json(results: Results, needs: Mapping[str, CaseNeeds]) -> dict[str, Any]:
     """The record of a check: no cases; ``needs`` says by load case what reaches the solver."""
     record = {name: value for name, value in results_json(results).items() if name not in NOT_OF_CHECKS}
-    record["model"] = dict(record["model"]) | dict(json_of(MODEL, results))
+    planar = bool(needs) and all(own.counts["dimension"] == 2 for own in needs.values())
+    record["model"] = dict(record["model"]) | dict(json_of(MODEL, results)) | {"dimension": 2 if planar else 3}
     return record | {"needs": {case: dict(own.counts) | dict(json_of(NEEDS, own)) for case, own in needs.items()}}

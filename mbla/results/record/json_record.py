@@ -103,7 +103,7 @@ def standing(results: Results) -> str | None:
 
 @MODEL.key()
 def dimension(results: Results) -> int:
-    """2 where every case was solved as planar, else 3."""
+    """2 where every case is solved as planar, else 3."""
     return dimension_of(results.cases)
 
 

@@ -58,7 +58,7 @@ def test_a_number_that_is_none_cannot_slip_through() -> None:
 
 
 def test_check_record_has_no_cases() -> None:
-    record = check_json(tower_results(), {"push": CaseNeeds({"cones": 8}, (STEP,))})
+    record = check_json(tower_results(), {"push": CaseNeeds({"dimension": 2, "cones": 8}, (STEP,))})
     assert "cases" not in record
     step = {
         "name": "parts",
@@ -67,7 +67,8 @@ def test_check_record_has_no_cases() -> None:
         "before": {"unknowns": 12, "cones": 8, "entries": 80, "largest": 12},
         "after": {"unknowns": 12, "cones": 8, "entries": 80, "largest": 6},
     }
-    assert record["needs"] == {"push": {"cones": 8, "reductions": [step]}}
+    assert record["needs"] == {"push": {"dimension": 2, "cones": 8, "reductions": [step]}}
+    assert record["model"]["dimension"] == 2
     assert record["model"]["joints"] == {"dry": {"interfaces": 2, "area": 2.0}}
     json_line(record)
 
