@@ -10,7 +10,7 @@ import sys
 from collections.abc import Sequence
 from itertools import takewhile
 from pathlib import Path
-from typing import NoReturn
+from typing import Any, NoReturn
 
 from mbla import __version__
 from mbla.cli import (
@@ -92,11 +92,18 @@ def _refuse_vanished_folder() -> None:
 class _Parser(argparse.ArgumentParser):
     """Raises what is wrong, after the line that says how the command is used."""
 
+    def parse_known_args(self, args: Any = None, namespace: Any = None) -> tuple[Any, list[str]]:
+        """Options; raises UsageError for an unknown one, of a command after the usage of that command."""
+        options, unknown = super().parse_known_args(args, namespace)
+        if unknown:
+            self.error(f"unrecognized arguments: {' '.join(unknown)}")
+        return options, unknown
+
     def error(self, message: str) -> NoReturn:
         """Raises UsageError, after the line that says how the command is used."""
         self.print_usage(sys.stderr)
         command = self.prog.partition(" ")[2]
-        raise UsageError("command-line", f"{command}: {message}" if command else message)
+        raise UsageError("command-line", f"{command and command + ': '}{message}; see {self.prog} --help")
 
 
 def wants_json(arguments: Sequence[str]) -> bool:

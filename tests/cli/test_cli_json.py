@@ -148,6 +148,17 @@ def test_what_a_command_is_asked_and_cannot_do(
     assert failure(capsys, *arguments)["identifiers"] == [identifier]
 
 
+def test_an_unknown_option_of_a_command_is_told_with_the_usage_of_that_command(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    assert cli.main(["show", "a.h5", "--nonsuch"]) == 2
+    usage, *_, line = capsys.readouterr().err.splitlines()
+    assert usage.startswith("usage: mbla show ")
+    assert line == "mbla: show: unrecognized arguments: --nonsuch; see mbla show --help  [command-line]"
+    assert cli.main(["--nonsuch", "show", "a.h5"]) == 2
+    assert "unrecognized arguments: --nonsuch; see mbla --help" in capsys.readouterr().err
+
+
 @pytest.mark.parametrize(
     ("error", "status", "name"),
     [
