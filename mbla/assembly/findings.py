@@ -89,7 +89,7 @@ def settlement_findings(assembly: Assembly) -> Iterator[tuple[KeyPath, Message]]
         tied = np.unique(ties.tie_of_point[np.isin(ties.bodies, blocks)])
         beside = [contacts.bodies[on_it].ravel(), ties.bodies[np.isin(ties.tie_of_point, tied)]]
         if still[np.concatenate(beside)].all():  # the last entry stands for what is outside of the model
-            words = "nothing that can move touches the support that gives way: no reaction is lost; see `mbla check`"
+            words = "nothing that can move touches the settling support: no reaction is lost; see `mbla check`"
             yield ("load_cases", case.deck_name, "settlement", "on"), Message("settlement-without-effect", words)
 
 
@@ -115,7 +115,7 @@ def _glued_settlements(assembly: Assembly) -> Iterator[tuple[KeyPath, Message]]:
         others = np.setdiff1d(on_it, blocks)
         if len(others):
             names = ", ".join(model.body_name(int(body)) for body in others[:3])
-            message = f"{names} held by glue on a support that gives way: fix that too, so that it settles along"
+            message = f"{names} held by glue on a settling support: fix that too, so that it settles along"
             yield ("load_cases", case.name, "settlement", "on"), Message("support-held-twice", message)
 
 

@@ -1,4 +1,4 @@
-"""Section `groups`: names for choices of blocks. Wherever a deck chooses blocks, the name stands for what it says.
+"""Section `groups`: named selectors. Wherever a deck selects blocks, a name of this section stands for its selector.
 
 The names are replaced in the deck as read, before it is checked: later stages know nothing of them, and what is wrong
 with a choice is reported where it is written.

@@ -89,7 +89,7 @@ def _giving_way(
         loose = chosen[~supports.fixed[chosen]]
         if len(loose):
             message = (
-                f"not fixed: {named(loose, selection.blocks.name)}; a support that gives way is made of blocks that "
+                f"not fixed: {named(loose, selection.blocks.name)}; a settling support is made of blocks that "
                 "`supports` fixes; in place of a ground plane give a block and fix it"
             )
             selection.refuse(Finding("settlement-not-fixed", message, *place))

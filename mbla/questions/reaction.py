@@ -1,4 +1,4 @@
-"""The reaction at which a structure follows a support that gives way.
+"""The reaction at which a structure follows a settling support.
 
 reaction = reaction at rest − λ × unit, so that the kinematic bound of λ gives its lower bound, the static one the upper
 (:mod:`mbla.model.settlement`).
@@ -67,7 +67,7 @@ class Reaction(Question):
     powers: ClassVar[tuple[str, str]] = ("loss of reaction", "dead load and reaction at rest")
     no_target: ClassVar[str] = "its answer is a force, which is no target; choose another load case, or mbla sweep"
     no_safety: ClassVar[str] = "a support gives way"
-    no_sensitivity = "of a support that gives way the load factor counts from a reference that changes as well"
+    no_sensitivity = "of a settling support the load factor counts from a reference that changes as well"
 
     def on_bodies(self, body: IntArray, loads: Callable[[FloatArray], FloatArray], always: FloatArray | float) -> Self:
         """With bodies for its blocks, none of which is glued."""

@@ -1,4 +1,4 @@
-"""Glue beside guided blocks and supports that give way: heeded where it can be, refused in words where not."""
+"""Glue beside guided blocks and settling supports: heeded where it can be, refused in words where not."""
 
 from __future__ import annotations
 
@@ -82,7 +82,7 @@ def test_what_is_glued_to_a_support_that_gives_way_is_refused() -> None:
     text = tower("[a,b]", ", {blocks: a}", "{settlement: {on: a, direction: [0, 0, -1]}}")
     words = message(text.replace("{ground: {z: 0}}, ", ""))
     assert "settlement.on" in words
-    assert "b[0] held by glue on a support that gives way: fix that too, so that it settles along" in words
+    assert "b[0] held by glue on a settling support: fix that too, so that it settles along" in words
 
 
 def test_a_body_on_a_support_that_gives_way() -> None:

@@ -164,7 +164,7 @@ def several_settlements(case: LoadCaseSection) -> Iterator[Finding]:
     amounts = [support.amount for support in supports]
     for number, support in enumerate(supports):
         if support.turn is not None:
-            words = "cannot be one of several supports that give way in proportion: give each a direction"
+            words = "cannot be one of several settling supports in proportion: give each a direction"
             yield Finding("settlement-not-followed", words, "settlement", number, "turn")
         if support.amount is None and any(amount is not None for amount in amounts):
             words = "needs amount, as the other supports have: the amounts are their proportion"
@@ -222,7 +222,7 @@ def load_case(case: LoadCaseSection) -> Iterator[Finding]:
 
 def _not_pushed(case: LoadCaseSection) -> Iterator[Finding]:
     if case.live is None:
-        words = "goes with live loads: a support that gives way is followed by its own amount"
+        words = "goes with live loads: a settling support is followed by its own amount"
         yield Finding("pushover-not-possible", words, "pushover")
     asked = None if case.pushover is None else case.pushover.position
     if asked is None:

@@ -91,7 +91,7 @@ class Case:
 
     @property
     def reaction(self) -> float:
-        """Least reaction of a support that gives way, force, or force times length; nan for other load cases."""
+        """Least reaction of a settling support, force, or force times length; nan for other load cases."""
         return answer_of(self.record, "reaction")
 
     @property

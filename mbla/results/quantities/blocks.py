@@ -140,13 +140,13 @@ MODEL.fields(
 
 @SCENE.quantity("table blocks", dims="block")
 def guided(scene: Scene) -> BoolArray:
-    """1 where it moves in given ways only, as in a support that gives way."""
+    """1 where it moves in given ways only, as in a settling support."""
     return np.isin(np.arange(len(scene.model.blocks)), scene.model.guides.blocks)
 
 
 @SCENE.quantity("table", dims="block")
 def settles(scene: Scene) -> BoolArray:
-    """1 where it belongs to the support that gives way."""
+    """1 where it belongs to the settling support."""
     count, load_case = len(scene.model.blocks), scene.load_case
     if load_case is None:
         return np.zeros(count, dtype=bool)

@@ -67,7 +67,7 @@ SENSITIVITY.fields(
     slope=Field("derivative of the associative load factor by it; nan: not known", rule="open", files="table"),
     elasticity=Field("relative change of that load factor over that of the parameter", rule="open", files="table"),
     side=Field(
-        "to which side of the value the slope holds: both, above, below; kink: above, and the remark has the one below",
+        "side of the value on which the slope holds: both, above, below; kink: above, the slope below in the remark",
         files="table",
     ),
     remark=Field("what else is to be said of it", files="table"),

@@ -50,7 +50,7 @@ CURVE.fields(
     load_factor=Field(
         "load factor that holds the structure there; of a tilting table its angle in radians", files="table"
     ),
-    reaction=Field("of a support that gives way, nan without one", unit="force", rule="open", files="table"),
+    reaction=Field("of a settling support, nan without one", unit="force", rule="open", files="table"),
     angle=Field(
         "of a tilting table that holds the structure there, nan without one", unit="degree", rule="open", files="table"
     ),

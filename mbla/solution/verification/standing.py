@@ -74,12 +74,12 @@ def standing_failures(
     acting = contact_resultants(model, contacts, forces) + load_case.dead_load
     failures = []
     blocks, way = load_case.question.giving_way, load_case.question.ways
-    if len(blocks):  # a support that gives way later is held, whatever its reaction
+    if len(blocks):  # a settling support later is held, whatever its reaction
         live = load_case.live_load
         acting = acting - live * float((acting[blocks] * way).sum() / (live[blocks] * way).sum())
         along = float((settlement[blocks] * way).sum()) / float(np.linalg.norm(way))
         if abs(along) > HELD * float(np.linalg.norm(settlement, axis=1).max(initial=0.0)):
-            failures.append("the support that gives way is displaced under the dead load alone")
+            failures.append("the settling support is displaced under the dead load alone")
     unbalanced = load_sizes(left_to_balance(model, acting, scale.arms), scale.arms)
     worst = int((unbalanced / allowed).argmax())
     if unbalanced[worst] > allowed[worst]:

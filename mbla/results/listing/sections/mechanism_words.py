@@ -120,7 +120,7 @@ def _part_sentence(model: Model, load_case: LoadCase, part: PartMotion) -> str:
     details = [group_words(model, part.blocks), span_words(model, part.blocks)]
     details += [f"{100 * part.weight / total:.3g} % of the weight"] if total > 0 else []
     if np.isin(load_case.question.giving_way, part.blocks).any():
-        details.append("with the support that gives way")
+        details.append("with the settling support")
     about = ", ".join(detail for detail in details if detail)
     return f"Part {part.number} ({about}) {motion}."
 

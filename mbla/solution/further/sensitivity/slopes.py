@@ -7,7 +7,7 @@ from enum import StrEnum
 
 
 class Side(StrEnum):
-    """To which side of the value of a parameter a slope holds; of a kink it is the one above."""
+    """On which side of the value of a parameter a slope holds; at a kink, with a slope on each side, the one above."""
 
     BOTH = "both"
     ABOVE = "above"
