@@ -1,6 +1,8 @@
-"""Whether any capacities suffice without dilatancy: the structure with every candidate at its greatest capacity.
+"""Whether greater capacities help without dilatancy: the structure with every candidate at its greatest capacity.
 
-By associative flow the program proves it; by another flow rule joints may give way whatever ties bear.
+By associative flow the program proves it; by another flow rule joints may give way whatever ties bear. There a load
+factor need not rise with the capacities, so that the greatest ones settle nothing where they give less than smaller
+ones do, nor where the path of joints was not followed to its end with them.
 """
 
 from __future__ import annotations
@@ -14,9 +16,10 @@ from mbla.arrays import FloatArray
 from mbla.results.collapse.ties import TieState, tie_rows
 from mbla.results.listing.sections.mechanism_words import description_of
 from mbla.results.listing.text import number
-from mbla.results.outcome import result_of
+from mbla.results.outcome import least_known, result_of
 from mbla.results.results import CaseResult, Results
 from mbla.solution.further.strengthening.strengthening import Strengthening
+from mbla.solution.solution import Status
 
 UNLIMITED = 10.0
 """over all loads that have to be carried: capacity of a candidate that has no greatest one"""
@@ -37,11 +40,20 @@ def greatest_capacities(question: Strengthening) -> FloatArray:
 
 
 GREATEST = (
-    "no greater capacities help: with all candidates at their greatest capacity, or at more than all loads where they "
-    "have none"
+    "greater capacities are not tried, as with all candidates at their greatest capacity, or at more than all loads "
+    "where they have none"
 )
 RAISED = "capacities were raised as far as is tried: with those written"
 """first words of why they do not suffice"""
+
+
+def settled_factors(results: Results, before: Mapping[str, float]) -> dict[str, float]:
+    """Load factors with the greatest capacities, of the load cases in which these settle that greater ones do not help.
+
+    before : by load case, with smaller capacities
+    """
+    found = {case.load_case.name: least_known(case) for case in results.cases if case.status is Status.SOLVED}
+    return {name: factor for name, factor in found.items() if factor >= before[name] * (1.0 - CLEARLY)}
 
 
 def shortfall(

@@ -40,7 +40,7 @@ from mbla.solution.further.strengthening.cheapest import cheapest
 from mbla.solution.further.strengthening.strengthening import Cheapest, Strengthening
 from mbla.solution.solution import WITH_VALUE, Status
 from mbla.sweeps.strengthen.catalogue import rounded_up
-from mbla.sweeps.strengthen.ceiling import GREATEST, RAISED, greatest_capacities, shortfall
+from mbla.sweeps.strengthen.ceiling import GREATEST, RAISED, greatest_capacities, settled_factors, shortfall
 from mbla.sweeps.strengthen.question import SHORT, question_of, refuse_unfit, required_of, with_fewer
 
 MOST_REPEATS, MARGIN, LEAST_SLOPE = 10, 5e-4, 0.25
@@ -152,17 +152,20 @@ def _analysed(
     """The strengthened structure, as much more asked of the program as it takes for it to carry what it has to."""
     assert deck.content.strengthen is not None  # who calls knows
     required, catalogue, tries = required_of(deck), deck.content.strengthen.catalogue, list[_Attempt]()
-    asked, raised, wanted, short = required, 1.0, with_fewer(question, first, catalogue), ""
+    asked, raised, wanted, short, same = required, 1.0, with_fewer(question, first, catalogue), "", 0
     for _ in range(MOST_REPEATS + 1):
         capacities = rounded_up(raised * wanted, catalogue, question.most)
-        if not tries or not np.array_equal(capacities, tries[-1].capacities):
+        same = same + 1 if tries and np.array_equal(capacities, tries[-1].capacities) else 0
+        if same:  # the catalogue had room for what was asked for more
+            tries[-1] = replace(tries[-1], asked=asked)
+        else:
             results = _analysis(deck, movable, model, candidates.ties, capacities)
             factors = {name: _factor(results, name) for name in required}
             tries.append(_Attempt(asked, capacities, float(capacities @ candidates.costs), results, factors))
-        more = _ask_for(required, tries)
+        more = _ask_for(required, tries, 2.0**same)
         if len(tries) == 1 and more is not None and not tries[0].carries(required):
             results = _analysis(deck, movable, model, candidates.ties, greatest_capacities(question))
-            limits = {name: _factor(results, name) for name in required}
+            limits = settled_factors(results, tries[0].factors)
             short = shortfall(results, required, limits, candidates.ties.names, GREATEST)
         if short or more is None or (raised > 1.0 and tries[-1].carries(required)):
             break
@@ -183,13 +186,16 @@ def _analysed(
     return replace(answer, files=_files(answer, movable, best.results, options))
 
 
-def _ask_for(required: dict[str, float], tries: Sequence[_Attempt]) -> dict[str, float] | None:
-    """Load factors to ask of the program next, by load case; None where that is of no use, or enough was found."""
+def _ask_for(required: dict[str, float], tries: Sequence[_Attempt], further: float) -> dict[str, float] | None:
+    """Load factors to ask of the program next, by load case; None where that is of no use, or enough was found.
+
+    further : multiple of what is asked for more where a load case fell short
+    """
     last, enough = tries[-1], [each for each in tries if each.carries(required)]
     if any(map(math.isnan, last.factors.values())):
         return None
     if not enough:
-        return {name: _beyond(name, factor, tries) for name, factor in required.items()}
+        return {name: _beyond(name, factor, tries, further) for name, factor in required.items()}
     best, before = min(enough, key=lambda each: each.cost), [each for each in tries if not each.carries(required)]
     closer = len(tries) - 1 - tries.index(enough[0])
     if not before or closer == MOST_CLOSER or best.surplus(required) <= CLOSE:
@@ -197,7 +203,7 @@ def _ask_for(required: dict[str, float], tries: Sequence[_Attempt]) -> dict[str,
     return {name: (before[-1].asked[name] + best.asked[name]) / 2.0 for name in required}
 
 
-def _beyond(name: str, required: float, tries: Sequence[_Attempt]) -> float:
+def _beyond(name: str, required: float, tries: Sequence[_Attempt], further: float) -> float:
     """Load factor to ask of the program for a load case that fell short, from what was asked before and found."""
     asked, found = tries[-1].asked[name], tries[-1].factors[name]
     if _carried(required, found):
@@ -205,7 +211,7 @@ def _beyond(name: str, required: float, tries: Sequence[_Attempt]) -> float:
     slope = 1.0
     if len(tries) > 1 and asked > tries[-2].asked[name]:
         slope = (found - tries[-2].factors[name]) / (asked - tries[-2].asked[name])
-    return float(asked + (required - found) / min(max(slope, LEAST_SLOPE), 1.0) + MARGIN * required)
+    return float(asked + further * ((required - found) / min(max(slope, LEAST_SLOPE), 1.0) + MARGIN * required))
 
 
 def _analysis(deck: Deck, movable: MovableDeck, model: Model, ties: Ties, capacities: FloatArray) -> Results:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import json
+from dataclasses import replace
 from importlib.util import find_spec
 from pathlib import Path
 
@@ -14,12 +15,14 @@ from mbla.deck import read_deck
 from mbla.results.hdf5.result_file import read_results_hdf5
 from mbla.results.movable_deck import movable_deck
 from mbla.results.provenance import deck_record
+from mbla.solution.solution import Status
 from mbla.sweeps.strengthen import study
-from mbla.sweeps.strengthen.ceiling import GREATEST, greatest_capacities, shortfall
+from mbla.sweeps.strengthen.ceiling import GREATEST, greatest_capacities, settled_factors, shortfall
 from mbla.sweeps.strengthen.question import question_of
 from mbla.verify import verify_file
 from tests.analytic.test_strengthening import ALONE, ROD
 from tests.analytic.test_ties import WEIGHT
+from tests.decks.folder import DECKS
 
 QUIET = "output: {vtu: false}\n"
 DECK = ALONE + QUIET + f"strengthen: {{required: {{push: 0.5}}, candidates: [{ROD}]}}\n"
@@ -130,6 +133,24 @@ def test_flow_without_dilatancy_decides_and_capacities_are_raised_for_it(
     assert all(case["load_factor"] >= 0.35 * (1 - 1e-5) for case in cases.values())
     assert isinstance(record["cost"], float)
     assert record["least_cost"] <= record["cost"] * (1 + 1e-6)  # type: ignore[operator]  # numbers of JSON
+
+
+@pytest.mark.long
+def test_the_facade_of_the_structures_carries_what_it_has_to(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """What its comment says; capacities of the catalogue are raised past those that are a little too weak inwards."""
+    path = DECKS / "structures" / "facade_to_strengthen.yaml"
+    code, record = told(capsys, str(path), "-o", str(tmp_path), "--set", "output.vtu=false")
+    assert code == 0
+    assert record["verified"]
+    cases, candidates = record["cases"], record["candidates"]
+    assert isinstance(cases, dict)
+    assert isinstance(candidates, list)
+    assert all(case["load_factor"] >= 0.25 for case in cases.values())
+    assert [case["load_factor"] for case in cases.values()] == pytest.approx([0.268, 0.266, 0.353, 0.336], abs=5e-3)
+    used = {each["name"]: each["capacity"] for each in candidates if each["capacity"]}
+    assert used == {"bar_0[0]": 150, "bar_1[0]": 150, "bar_2[0]": 60, "top_2[0]": 30}
 
 
 def test_a_catalogue_leaves_out_what_is_hardly_used(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -275,3 +296,8 @@ strengthen: {required: {push: 0.5}, candidates: [
     assert "upper" in says.partition("It fails so: ")[2]
     assert "Below their capacity are rod[0] (" in says
     assert shortfall(results, {"push": 0.2}, factors, candidates.ties.names, GREATEST) == ""
+    assert settled_factors(results, {"push": 0.2}) == pytest.approx({"push": 0.2}, rel=1e-6)
+    assert settled_factors(results, {"push": 0.3}) == {}, "smaller capacities carried more"
+    (case,) = results.cases
+    rough = replace(results, cases=(replace(case, status=Status.APPROXIMATE),))
+    assert settled_factors(rough, {"push": 0.2}) == {}
