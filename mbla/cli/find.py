@@ -17,10 +17,10 @@ def add(commands: Any) -> None:
         "find",
         help="the value of a parameter at which a load factor is a target, or the structure just stands",
         description="Look for the value of a number of the deck at which a load factor is a target, or at which the "
-        "dead load is just carried, between two bounds: by slopes of the associative load factor, which cost no "
-        "further solve, so that 5 to 8 solves do. The question stands in the section find of the deck; options go "
-        "before it. Values that meet the target over a stretch are told from end to end. Prints every value that was "
-        "looked at; writes no files.",
+        "dead load is just carried, between two bounds. Slopes of the associative load factor cost no further solve, "
+        "so that 5 to 8 solves do; without dilatancy there are none, and 5 to 20 solves are needed. The question "
+        "stands in the section find of the deck; options go before it. Where a stretch of values meets the target, "
+        "both of its ends are found. Prints every value that was looked at; writes no files.",
         epilog="Exit status 0: found and verified; 4: the last answer is not verified, is a jump of the load factor or "
         "stands only by self-stress, or nothing was found and of some steps of --scan nothing is known; 5: no value "
         "between the bounds, as far as the steps show.",

@@ -38,7 +38,8 @@ SAME = 1e-7
 """Difference of load factors, relative, that is none"""
 SOLVED = 1e-8
 """What a load factor may be off, over itself or its target, even where its bounds are closer: by the cone solver"""
-
+SCATTER = 5e-3
+"""Steps of a load factor without bounds, over itself or its target, that come of how its path is followed"""
 
 REFUSED = "refused"
 """status of a value with which the deck is not valid"""
@@ -63,6 +64,7 @@ class Evaluation:
     solves   : of programs with a load factor
     bounds   : proved, of an associative result; nan without
     uncertainty : absolute, of the result: within that of the target it meets it
+    scatter     : absolute, of the result: how far it may step where the parameter hardly changes
     """
 
     x: float
@@ -75,6 +77,7 @@ class Evaluation:
     solves: int = 1
     bounds: tuple[float, float] = (math.nan, math.nan)
     uncertainty: float = 0.0
+    scatter: float = 0.0
 
 
 def answer_at(deck: Deck, question: FindQuestion, x: float, contacts: KnownContacts | None = None) -> Evaluation:
@@ -141,9 +144,10 @@ def _factor(deck: Deck, question: FindQuestion, structure: LoadedAssembly, x: fl
         # also of a load factor without dilatancy: never above the associative one, it touches that where both are one
         structure = replace(structure, load_case=case.load_case)
         slope = slope_by(deck, structure, case.solution, case.checks, question.path)
-    uncertainty = max(_rounding(case.checks, bounds) * max(abs(result), abs(question.target)), _farther(result, bounds))
-    y = result - question.target
-    return Evaluation(x, status, verified, result, y, slope, bounds=bounds, uncertainty=uncertainty)
+    size, y = max(abs(result), abs(question.target)), result - question.target
+    uncertainty = max(_rounding(case.checks, bounds) * size, _farther(result, bounds))
+    scatter = 0.0 if math.isfinite(bounds[0]) else SCATTER * size
+    return Evaluation(x, status, verified, result, y, slope, bounds=bounds, uncertainty=uncertainty, scatter=scatter)
 
 
 def _rounding(checks: Checks, bounds: tuple[float, float]) -> float:

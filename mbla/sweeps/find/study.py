@@ -133,6 +133,7 @@ PRESSURE = (
     "Pressure in all joints, as of water, that is carried with the dead load, in the units of the deck; where it is "
     "negative, the dead load alone is not carried."
 )
+SCATTERS = ", between which the result scatters"
 NO_CHANGE = (
     "Nothing was found: the result is on one side of the target at both ends of every step ({} from bound to bound). "
     "Other bounds or a finer --scan may find it."
@@ -180,6 +181,7 @@ def _value_words(question: FindQuestion, zero: Zero[Evaluation], standing: Stand
     elif zero.complete and not zero.jumps:
         says = f"{name} = {zero.best.x:.9g}{unit}, within {small(zero.error)} by "
         says += "the values around it" if math.isnan(zero.best.slope) else "the slope there"
+        says += SCATTERS if math.isnan(zero.best.slope) and zero.error > question.absolute_tolerance else ""
     side = "above" if zero.rises else "below"
     if standing is not None and standing.verdict is not Standing.YES:
         says += f"; {side} {_no_limit(standing)}"

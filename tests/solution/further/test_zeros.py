@@ -23,23 +23,33 @@ class Point:
     y: float
     slope: float
     uncertainty: float = 0.0
+    scatter: float = 0.0
 
 
-def sampled(function: Function, slopes: bool, seen: list[Point], uncertainty: float) -> Callable[[float], Point]:
+def sampled(
+    function: Function, slopes: bool, seen: list[Point], uncertainty: float, scatter: float = 0.0
+) -> Callable[[float], Point]:
     def at(x: float) -> Point:
         y, slope = function(x)
-        seen.append(Point(x, y, slope if slopes else NAN, uncertainty))
+        seen.append(Point(x, y, slope if slopes else NAN, uncertainty, scatter))
         return seen[-1]
 
     return at
 
 
 def zeros(
-    function: Function, low: float, high: float, *, slopes: bool, steps: int = 1, uncertainty: float = 0.0
+    function: Function,
+    low: float,
+    high: float,
+    *,
+    slopes: bool,
+    steps: int = 1,
+    uncertainty: float = 0.0,
+    scatter: float = 0.0,
 ) -> tuple[list[Zero[Point]], int]:
     """Zeros, and the number of evaluations."""
     seen: list[Point] = []
-    at = sampled(function, slopes, seen, uncertainty)
+    at = sampled(function, slopes, seen, uncertainty, scatter)
     return find_zeros(scan(low, high, steps, at), at, 1e-9), len(seen)
 
 
@@ -93,10 +103,33 @@ def test_a_jump() -> None:
     assert evaluations < MOST
 
 
-def test_a_jump_between_two_finite_values() -> None:
-    (found,), _ = zeros(lambda x: (x + 0.7 if x > 0.3 else x - 2, NAN), 0, 1, slopes=False)
+@pytest.mark.parametrize(("low", "high"), [(0, 1), (0.29, 0.31), (-1000, 1000)])
+@pytest.mark.parametrize("size", [1.0, 1e-3])
+def test_a_jump_between_two_finite_values(low: float, high: float, size: float) -> None:
+    """Whatever the values at the bounds are, and with them the largest that is seen."""
+    (found,), _ = zeros(
+        lambda x: (x - 0.3 + size if x > 0.3 else 2 * (x - 0.3) - size, NAN), low, high, slopes=False, scatter=1e-4
+    )
     assert found.complete
     assert found.jumps
+
+
+@pytest.mark.parametrize(("low", "high"), [(0, 1), (0.499, 0.502), (-10, 30)])
+def test_steps_up_to_the_scatter_are_no_jump_and_end_the_search(low: float, high: float) -> None:
+    """A line that scatters by 4e-4 within 1e-6: zero is known to about that over its slope."""
+    (found,), evaluations = zeros(
+        lambda x: (2 * x - 1 + 4e-4 * math.sin(1e7 * x), NAN), low, high, slopes=False, scatter=1e-3
+    )
+    assert found.complete
+    assert not found.jumps
+    assert abs(found.best.x - 0.5) <= found.error <= 2e-3
+    assert evaluations <= 12
+
+
+@pytest.mark.parametrize("function", [ROOT, FALLS])
+def test_a_smooth_function_is_followed_to_the_tolerance_whatever_it_may_scatter(function: Function) -> None:
+    (found,), _ = zeros(function, 0.1, 3, slopes=False, scatter=1e-2)
+    assert found.best.x == pytest.approx(0.25 if function is ROOT else 1.0, abs=1e-8)
 
 
 def test_a_value_that_is_not_known_ends_it() -> None:

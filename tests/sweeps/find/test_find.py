@@ -17,6 +17,7 @@ from mbla.errors import DeckError, UsageError
 from mbla.sweeps.find.study import FindResult, find
 from tests.decks.folder import PATHS, deck_of, name_of
 from tests.line import BLOCK, WALL
+from tests.test_readme import block as block_of_readme
 
 ASKED = {"parameter": None, "target": None, "bounds": None, "case": None, "scan": None, "tolerance": None}
 OF_DECKS = {
@@ -34,6 +35,7 @@ WEDGED = BLOCK.replace(
   - box: {group: right, material: stone, min: [1, 0, 0], max: [2, 1, 1]}
 supports: [{blocks: [left, right]}]""",
 )
+OF_README = block_of_readme("`wall.yaml`:")
 JAMMED = WEDGED.replace("min: [0, 0, 0]", "min: [0, 0, 1]").replace("1]}", "2]}")
 JAMMED = JAMMED.replace("blocks: [left, right]", "ground: {z: 0}, joint: ground").replace(
     "joints: {", "joints: {ground: {friction: 0.7}, "
@@ -225,6 +227,19 @@ def test_the_command(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None
     assert cli.main(["find", str(deck), *options[:-2], "5", "8", "-q"]) == 5
     assert capsys.readouterr().out == ""
     assert list(tmp_path.iterdir()) == [deck]
+
+
+@pytest.mark.long
+@pytest.mark.parametrize(("bounds", "most"), [((0.4, 0.8), 9), ((0.514, 0.519), 7)])
+def test_a_load_factor_without_dilatancy_that_scatters_does_not_jump(bounds: tuple[float, float], most: int) -> None:
+    """The wall of the README: its load factor steps by a thousandth where friction hardly changes."""
+    found = asked(OF_README, "joints.dry.friction", "load_factor", 0.5, bounds)
+    (zero,) = found.zeros
+    assert (found.exit_code, zero.jumps) == (0, False)
+    assert zero.best.x == pytest.approx(0.5165, abs=1e-3)
+    assert 1e-4 < zero.error < 2e-3
+    assert found.solves <= most
+    assert "between which the result scatters" in said(found)
 
 
 WEDGE = """mbla: 1

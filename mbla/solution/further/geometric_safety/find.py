@@ -56,6 +56,7 @@ class _Try:
     slope: float
     found: JointPressure
     uncertainty: float = 0.0
+    scatter: float = 0.0
 
 
 def geometric_safety_of(

@@ -13,6 +13,7 @@ class Sample(Protocol):
     y           : infinite where only the side is known, nan where nothing is
     slope       : nan without one
     uncertainty : absolute, of y: |y| up to it counts as zero; 0 where the sign counts however small y is
+    scatter     : absolute, of y: steps of the function up to it are none of what it describes; 0 of a smooth function
     """
 
     @property
@@ -23,6 +24,8 @@ class Sample(Protocol):
     def slope(self) -> float: ...  # noqa: D102
     @property
     def uncertainty(self) -> float: ...  # noqa: D102
+    @property
+    def scatter(self) -> float: ...  # noqa: D102
 
 
 S = TypeVar("S", bound=Sample)
@@ -36,9 +39,10 @@ class Zero(Generic[S]):
     bracket  : the nearest samples below and above zero; of a stretch those before and after it, its own where it ends
                with the samples
     error    : of ``best.x``: its value over its slope, but no more than the bracket is wide, and no less than what the
-               value may be off over the slope; of a stretch that of the end that is known less well
+               value may be off over the slope; where the function scatters, what it scatters over its mean slope; of a
+               stretch that of the end that is known less well
     complete : the error is as small as it was to be, or as it can be
-    jumps    : the function is not near zero on either side of it
+    jumps    : the function is further from zero on both sides than it is known and than its slopes there explain
     stretch  : the samples at both ends; the same one where the function only touches zero; None of a single value
     """
 

@@ -7,6 +7,9 @@ it is that of the parabola x(y) through the last three values, or of the secant 
 them, or follows two steps that made little progress, is the middle. A value may be infinite: a structure that does not
 stand, or one that no load brings down, is on one side, but has no size.
 
+Where the function scatters, smaller brackets say nothing more, and the search ends
+(:mod:`mbla.solution.further.zeros.steps`).
+
 A value that is zero as far as it is known, without a slope that tells where, may be one of a stretch of such values:
 its ends are looked for then (:mod:`mbla.solution.further.zeros.stretches`).
 """
@@ -18,6 +21,7 @@ from collections.abc import Callable, Iterator, Sequence
 from itertools import pairwise
 
 from mbla.solution.further.zeros.samples import S, Sample, Zero, is_zero, level, steep
+from mbla.solution.further.zeros.steps import jumps_over, scattered
 from mbla.solution.further.zeros.stretches import find_stretch, runs
 
 MOST = 50
@@ -28,8 +32,6 @@ ALIKE = 3.0
 """Ratio of slopes up to which a cubic goes through both"""
 PATIENCE = 2
 """Steps in a row with little progress that are allowed"""
-NARROW, FAR = 1e-3, 1e-2
-"""A function jumps over zero where, in so small a share of the first bracket, it keeps so much of its largest size"""
 
 
 def scan(low: float, high: float, steps: int, at: Callable[[float], S]) -> list[S]:
@@ -73,9 +75,12 @@ def find_zero(one: S, other: S, at: Callable[[float], S], tolerance: float) -> Z
     seen, slow = [one, other], 0
     while True:
         best, error = _best(below, above, seen)
+        around = scattered(below, above, seen)
+        if math.isfinite(around):
+            return Zero(best, (below, above), around, complete=True)
         if error <= tolerance or len(seen) > MOST:
             complete = error <= tolerance
-            jumps = complete and _jumps(below, above, seen, error)
+            jumps = complete and jumps_over(below, above, seen, error)
             return Zero(best, (below, above), _with_rounding(best, error), complete, jumps)
         middle = 0.5 * (below.x + above.x)
         sample = at(middle if slow >= PATIENCE else _next(below, above, seen, tolerance))
@@ -109,16 +114,6 @@ def _best(below: S, above: S, seen: Sequence[S]) -> tuple[S, float]:
 def _with_rounding(best: Sample, error: float) -> float:
     """The error of x, no less than what the function may be off is worth by its slope."""
     return max(error, best.uncertainty / abs(best.slope)) if is_zero(best) else error
-
-
-def _jumps(below: S, above: S, seen: Sequence[S], error: float) -> bool:
-    """Whether neither end is near zero, by their slopes where one is infinite, else by what was seen."""
-    width = abs(above.x - below.x)
-    if not math.isfinite(above.y - below.y):
-        return error >= width > 0.0
-    largest = max(abs(each.y) for each in seen if math.isfinite(each.y))
-    near = min(abs(below.y), abs(above.y)) <= FAR * largest
-    return not near and width <= NARROW * abs(seen[1].x - seen[0].x)
 
 
 def _next(below: S, above: S, seen: Sequence[S], tolerance: float) -> float:
