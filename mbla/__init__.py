@@ -1,13 +1,15 @@
 """mbla: limit analysis of masonry as an assembly of rigid blocks.
 
-The program on one line; each word is a folder, and its main type carries the folder's name::
+The program on one line; each word is a folder, and up to ``results`` its main type carries the folder's name::
 
-    deck ──> model ──> contacts ──> assembly ──> program ──> solution ──> results ──> codes
-    text     blocks,    interfaces,  rigid        equilibrium,  load factor,  .h5 .vtu    capacity
-             supports,  contact      bodies,      yield cones,  forces,       listing,    over
-             loads      points       ties         objective     mechanism     pictures    demand
+    deck ──> questions ──> model ──> contacts ──> assembly ──> program ──> solution ──> results ──> codes ──> sweeps
+    text     what is       blocks,   interfaces,  rigid        equilib-    load         .h5 .vtu    capacity  a deck
+             asked of a    supports, contact      bodies,      rium, yield factor,      listing,    over      run many
+             load case     loads     points       ties         cones       mechanism    pictures    demand    times
 
-A stage imports only from the stages to its left; ``run.py`` is the table of contents.
+A stage imports only from the stages to its left. One exception: kinds of blocks and of loads are each one file of
+``model/blocks`` and ``model/loads``, and two files of ``deck`` ask them for the keys that they have in a deck. ``run.py``
+is the table of contents.
 """
 
 import sys

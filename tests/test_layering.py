@@ -1,10 +1,12 @@
-"""The stages import only from the stages to their left, and each foreign library has one door."""
+"""The stages import only from the stages to their left, and foreign libraries have one door each, but for a few."""
 
 from __future__ import annotations
 
 import ast
+import re
 import subprocess
 import sys
+from collections.abc import Sequence
 from functools import cache
 from pathlib import Path
 
@@ -31,6 +33,7 @@ DOORS = {
     "pyvista": "results/pictures/renderer.py",
     "vtk": "results/pictures/renderer.py",
     "imageio_ffmpeg": "results/pictures/animation.py",
+    "PIL": "results/pictures/animation.py",
     "matplotlib": "results/pictures/page.py",
     "jinja2": "results/report/report.py",
     "plotly": "results/view3d/view.py",
@@ -69,6 +72,12 @@ GIVEN_TO_KINDS = {
     "deck/units.py",
 }
 """files of the deck that kinds are made of, by themselves or through others: none of them knows of a kind"""
+EVERYWHERE = {"numpy", "scipy", "shapely", "pydantic"}
+"""libraries without a door"""
+DISTRIBUTIONS = {"yaml": "pyyaml", "PIL": "pillow", "vtkmodules": "vtk", "imageio_ffmpeg": "imageio-ffmpeg"}
+"""names that libraries are installed by, where they are not those that they are imported by"""
+NOT_INSTALLED = {"paraview": "the script that pvbatch runs"}
+DEPENDENCIES = PACKAGE.parent / "schemas" / "dependencies.md"
 SECOND_DERIVATION = "solution/verification/"
 GIVEN_TO_IT = {
     "program/yield_conditions/limits.py": "strengths as data",
@@ -127,6 +136,35 @@ def test_stages_import_from_the_left_and_each_library_has_one_door() -> None:
             if at_run_time and DOORS.get(package, place) != place:
                 wrong.append(f"{place} imports {name}, whose door is {DOORS[package]}")
     assert wrong == []
+
+
+def importers() -> dict[str, list[str]]:
+    """Files that import each library at run time, by the name that it is installed by; of pydantic_core as of pydantic."""
+    found: dict[str, set[str]] = {}
+    for path in FILES:
+        for name, at_run_time in imports_of(path).items():
+            library = name.split(".")[0].removesuffix("_core")
+            if at_run_time and library not in {"mbla", *sys.stdlib_module_names, *NOT_INSTALLED}:
+                found.setdefault(DISTRIBUTIONS.get(library, library), set()).add(str(path.relative_to(PACKAGE)))
+    return {library: sorted(files) for library, files in found.items()}
+
+
+def importers_in_words(files: Sequence[str]) -> str:
+    """The one file that imports a library, else the folders that have such files, in the order of the program."""
+    folders = {file.split("/")[0] for file in files if "/" in file}
+    return f"`{files[0]}`" if len(files) == 1 else ", ".join(name for name in (*STAGES, "process") if name in folders)
+
+
+def test_the_page_of_dependencies_says_who_imports_each() -> None:
+    table = DEPENDENCIES.read_text(encoding="utf-8").split("\n\n")[1].splitlines()[2:]
+    rows = [[cell.strip() for cell in line.split("|")[1:-1]] for line in table]
+    named = {name: row for row in rows for name in re.findall(r"[\w-]+", row[0].split(" (")[0])}
+    found = importers()
+    assert found.keys() <= named.keys()
+    for name, (*_, imported_by) in named.items():
+        told = imported_by if name in found else imported_by.partition(";")[0]
+        assert told == (importers_in_words(found[name]) if name in found else "nothing in mbla"), name
+    assert {name for name, files in found.items() if len(files) > 1} == EVERYWHERE
 
 
 def seen_from(folder: str) -> set[str]:

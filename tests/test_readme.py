@@ -39,6 +39,11 @@ def test_the_deck_of_the_readme_prints_what_it_says(
     written = {path.name for path in Path("wall.out").iterdir()}
     for name in re.findall(r"`(wall[\w.]+\.(?:lst|h5|json|sta|vtu|pvd))`", README):
         assert name in written
+    rows = README.split("## Result files", 1)[1].split("\n## ", 1)[0].splitlines()
+    listed = {name for row in rows for name in re.findall(r"`([\w.…]+)`", row.partition(" | ")[0])}
+    listed = {name.replace("…", "wall_push_x") for name in listed}
+    frames = sorted(name for name in written if "_frame_" in name)
+    assert written - set(frames) | {frames[0], frames[-1]} <= listed
 
 
 def test_python_of_the_readme_runs(
