@@ -8,8 +8,8 @@ The program on one line; each word is a folder, and up to ``results`` its main t
              load case     loads     points       ties         cones       mechanism    pictures    demand    times
 
 A stage imports only from the stages to its left. One exception: kinds of blocks and of loads are each one file of
-``model/blocks`` and ``model/loads``, and two files of ``deck`` ask them for the keys that they have in a deck. ``run.py``
-is the table of contents.
+``model/blocks`` and ``model/loads``, and two files of ``deck`` ask them for the keys that they have in a deck.
+``run.py`` is the table of contents.
 """
 
 import sys

@@ -35,7 +35,8 @@ KINDS: dict[str, Kind] = {
     "ByteArray": "byte",
     **dict.fromkeys(("str", "list[str]", "tuple[str, ...]", "Sequence[str]", "Values", "Message"), "text"),
     **dict.fromkeys(
-        ("Literal['notice', 'warning']", "Status", "Standing", "Side", "ReductionOutcome", "TieState", "CurveEnd"), "text"
+        ("Literal['notice', 'warning']", "Status", "Standing", "Side", "ReductionOutcome", "TieState", "CurveEnd"),
+        "text",
     ),
 }
 """kinds of quantities by the types of their values; those of the JSON record may have others"""
