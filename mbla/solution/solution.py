@@ -221,13 +221,13 @@ class Solution:
 
     flow_rule: str
     status: Status
-    mechanics: Mechanics | None
-    associative: Mechanics | None
-    certificate: FloatArray | None
-    reason: str
-    programs: tuple[ProgramRecord, ...]
-    iterations: tuple[IterationRecord, ...]
-    seconds: float
+    mechanics: Mechanics | None = None
+    associative: Mechanics | None = None
+    certificate: FloatArray | None = None
+    reason: str = ""
+    programs: tuple[ProgramRecord, ...] = ()
+    iterations: tuple[IterationRecord, ...] = ()
+    seconds: float = 0.0
     scheme: str = ""
     remarks: tuple[Message, ...] = ()
     least: Mechanics | None = None

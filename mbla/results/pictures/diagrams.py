@@ -37,14 +37,14 @@ class Diagrams:
         """Points of letters at axes."""
         return self.page.small
 
-    def frames(self, count: int, *, columns: int = 0, layout: str = "constrained", **options: Any) -> Any:
+    def frames(self, count: int, *, columns: int = 0, **options: Any) -> Any:
         """Axes in rows and columns, (rows, columns), the first ``count`` to be drawn in.
 
         columns : that many; 0 for diagrams about half as wide again as high
         options : of ``Figure.subplots``
         """
         rows, columns = (-(-count // columns), columns) if columns else self.places(count)
-        self.page.figure.set_layout_engine(layout, rect=self._rect, w_pad=0.06, h_pad=0.06)
+        self.page.figure.set_layout_engine("constrained", rect=self._rect, w_pad=0.06, h_pad=0.06)
         frames = self.page.figure.subplots(rows, columns, squeeze=False, **options)
         for axes in frames.flat[count:]:
             axes.set_axis_off()
@@ -134,9 +134,9 @@ def tint(page: Page, number: int, count: int) -> Any:
     return page.parts.colormaps[SCALE](DARK_END + (LIGHT_END - DARK_END) * number / max(count - 1, 1))
 
 
-def hollow(page: Page, marker: str, colour: str, size: float = 8.0, edge: float = 1.5) -> dict[str, Any]:
+def hollow(page: Page, marker: str, colour: str) -> dict[str, Any]:
     """Style of markers that are no values: outlines alone, without a line."""
     return {
         "linestyle": "none", "marker": marker, "markerfacecolor": "none", "markeredgecolor": colour,
-        "markeredgewidth": edge * page.scale, "markersize": size * page.scale,
+        "markeredgewidth": 1.5 * page.scale, "markersize": 8.0 * page.scale,
     }  # fmt: skip

@@ -130,13 +130,8 @@ def _proves(run: AssociativeRun, state: StressFree) -> bool:
         return False
     if run.program.facts.settling_support:  # with the reaction that it has while it is held
         return _carrying(run, state.rest.forces, state.rest.load_factor) is not None
-    forces = state.rest.forces
-    return _carried_alone(run.program.without_live_load(), forces) or _carrying(run, forces, 0.0) is not None
-
-
-def _carried_alone(program: Program, forces: FloatArray) -> bool:
-    """Whether forces can be repaired to carry the dead load of a program without live load."""
-    return repaired_forces(program, forces, 0.0) is not None
+    forces, alone = state.rest.forces, run.program.without_live_load()
+    return repaired_forces(alone, forces, 0.0) is not None or _carrying(run, forces, 0.0) is not None
 
 
 def _with_dead_load(run: AssociativeRun, answer: ProvedSolution, *, proved: bool) -> AssociativeResult:

@@ -60,17 +60,14 @@ class ConeVectors:
         """‖x̄‖ of every cone, (n_cones,), of a vector of all cones, (n_entries,)."""
         return np.asarray(np.sqrt(np.bincount(self.cone_of_row, np.where(self.is_head, 0.0, x**2), len(self.sizes))))
 
-    def pulled_inside(
-        self, z: FloatArray, distance: float, sizes: FloatArray | None = None, least: FloatArray | float = 0.0
-    ) -> FloatArray:
+    def pulled_inside(self, z: FloatArray, distance: float, sizes: FloatArray) -> FloatArray:
         """Heads raised until every vector is inside by a distance relative to its size.
 
         sizes : (n_cones,) what a vector is large beside, where that is less than the largest vector
-        least : (n_cones,) distance in absolute terms that it is inside by at least
         """
         inside, tail = z.copy(), self.tails(z)
         largest = max(float(np.abs(z).max(initial=0.0)), 1e-300)
-        least = np.maximum(LEAST * (largest if sizes is None else np.minimum(largest, sizes)), least)
+        least = LEAST * np.minimum(largest, sizes)
         inside[self.head] = np.maximum(z[self.head], tail * (1.0 + distance) + least)
         return inside
 

@@ -21,7 +21,6 @@ from functools import partial
 
 import numpy as np
 
-from mbla.arrays import FloatArray
 from mbla.solution.flow.peak_step import EXACT, PeakStep, centred, solved_peak
 from mbla.solution.law.elastic_joints import ElasticJoints, Memory, StepState
 from mbla.solution.law.exact_law import forces_by_law
@@ -95,18 +94,17 @@ class Gravity:
     step: JointStep
 
 
-def gravity_step(joints: ElasticJoints, least_force: float = 0.0, gaps: FloatArray | float = 0.0) -> Gravity:
+def gravity_step(joints: ElasticJoints, least_force: float = 0.0) -> Gravity:
     """The dead load in one step, from joints without stress.
 
     least_force : n₀ of a structure without weight; 1 where that is none
-    gaps        : (n_points,) displacement by which each joint closes before it touches
     """
     program, n = joints.program, joints.program.n_points
     force = float(np.abs(program.dead_load).sum()) / max(n, 1) or least_force or 1.0
     held = program.facts.settling_support and bool(np.any(program.live_load))
-    fresh = Memory.stress_free(joints, gaps)
+    fresh = Memory.stress_free(joints)
     step = JointStep(joints, fresh, 1.0, driven=held, work=0.0, held=WEAKER * HELD[0] * joints.matrix.size)
-    exact, spent = _of_points(joints, least_force, gaps) if joints.laws else _exactly(step)
+    exact, spent = _of_points(joints, least_force) if joints.laws else _exactly(step)
     if exact is not None:
         return _at_rest(step, exact, force, spent)
     for share in HELD:
@@ -137,11 +135,11 @@ def gravity_step(joints: ElasticJoints, least_force: float = 0.0, gaps: FloatArr
     return replace(_at_rest(step, state, force, spent), settled=settled, carried=carried)
 
 
-def _of_points(joints: ElasticJoints, least_force: float, gaps: FloatArray | float) -> tuple[StepState | None, int]:
+def _of_points(joints: ElasticJoints, least_force: float) -> tuple[StepState | None, int]:
     """The state of the points alone where it keeps within the laws of the interfaces, so that none of them moves; None
     where it does not; factorisations.
     """
-    found = gravity_step(joints.without_laws, least_force, gaps)
+    found = gravity_step(joints.without_laws, least_force)
     state = found.state
     laws = [rows.at_rest(state.normal, state.shear) for rows in joints.rows] if found.carried else [None]
     within = tuple(one for of_rows in laws if of_rows is not None for one in of_rows)

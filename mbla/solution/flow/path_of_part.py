@@ -124,7 +124,6 @@ def path_of_part(
     settings: PathSettings,
     dilatancy: FloatArray | None = None,
     interfaces: Interfaces = NONE,
-    gaps: FloatArray | None = None,
     *,
     extent: Extent = WHAT_MOVES,
 ) -> PathOfPart:
@@ -132,7 +131,6 @@ def path_of_part(
 
     dilatancy  : (n_points,) tangents of its angles; default: none
     interfaces : of the model that have a law of their own
-    gaps       : (n_points,) displacement by which each joint closes before it touches; default: none
     extent     : how much of it is followed
     """
     settings.validate()
@@ -145,9 +143,9 @@ def path_of_part(
         moves = v if extent.besides is None else np.where(extent.besides, np.abs(v).max(initial=0.0), v)
         part = moving_part(program, moves, settings)
     known, before = None if state is None else state.load_factor, associative.stress_free
-    same = part is None and gaps is None and dilatancy is None and interfaces is NONE and settings.ratio == RATIOS[0]
+    same = part is None and dilatancy is None and interfaces is NONE and settings.ratio == RATIOS[0]
     gravity = before.gravity if before is not None and same and np.any(program.dead_load) else None
-    found = path_by(program, known, settings, dilatancy, interfaces, gaps, part, gravity)
+    found = path_by(program, known, settings, dilatancy, interfaces, part, gravity)
     falls = associative.status is Status.NO_EQUILIBRIUM
     return PathOfPart(Stop.DOES_NOT_STAND, rest=found.rest, factorizations=found.factorizations) if falls else found
 
@@ -158,7 +156,6 @@ def path_by(
     settings: PathSettings,
     dilatancy: FloatArray | None = None,
     interfaces: Interfaces = NONE,
-    gaps: FloatArray | None = None,
     part: ChosenPart | None = None,
     gravity: Gravity | None = None,
 ) -> PathOfPart:
@@ -173,10 +170,9 @@ def path_by(
         raise ValueError("torsion of interfaces goes with joints without dilatancy")
     rows = interfaces.rows_of(program)
     whole = ElasticJoints.of(program, shares_of(program), settings.ratio, dilatancy, rows)
-    gaps = np.zeros(program.n_points) if gaps is None else gaps
     scale = program.own_unit if associative is None else associative
     joints = whole if part is None else _of_moving(part, whole, interfaces)
-    rest = _at_rest(joints, scale, settings, gaps, part) if gravity is None else AtRest(joints, gravity, settings)
+    rest = _at_rest(joints, scale, settings, part) if gravity is None else AtRest(joints, gravity, settings)
     ends = _ends_at_rest(rest, program, associative)
     if ends is not None:
         return PathOfPart(ends, rest=rest, factorizations=rest.gravity.steps)
@@ -199,14 +195,12 @@ def _record(found: Followed, rest: AtRest) -> PathOfPart:
     return PathOfPart(found.stop, path, rest, len(found.paths), spent)
 
 
-def _at_rest(
-    joints: ElasticJoints, scale: float, settings: PathSettings, gaps: FloatArray, part: ChosenPart | None
-) -> AtRest:
+def _at_rest(joints: ElasticJoints, scale: float, settings: PathSettings, part: ChosenPart | None) -> AtRest:
     """Under the dead load."""
-    program, gaps = joints.program, gaps if part is None else gaps[part.points]
+    program = joints.program
     if program.facts.settling_support or not np.any(program.dead_load):  # the live load counts
-        return AtRest(joints, gravity_step(joints, mean_live_load(program, scale), gaps), settings, part)
-    return AtRest(joints, gravity_step(joints.without_live_load, gaps=gaps), settings, part)
+        return AtRest(joints, gravity_step(joints, mean_live_load(program, scale)), settings, part)
+    return AtRest(joints, gravity_step(joints.without_live_load), settings, part)
 
 
 def _ends_at_rest(rest: AtRest, program: Program, associative: float | None) -> Stop | None:

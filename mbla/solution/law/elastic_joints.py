@@ -237,11 +237,11 @@ class Memory:
         return int(opened.sum()), int(slide.sum())
 
     @staticmethod
-    def stress_free(joints: ElasticJoints, gaps: FloatArray | float = 0.0) -> Memory:
-        """Of joints that just touch, or that close by gaps, (n_points,), before they do: a slack tie by its slack."""
+    def stress_free(joints: ElasticJoints) -> Memory:
+        """Of joints that just touch."""
         n, components = joints.program.n_points, joints.program.components
         none = tuple(np.zeros((components, law.rows.shape[1] // components)) for law in joints.laws)
-        return Memory(-gaps * joints.normal, np.zeros((components - 1, n)), none)
+        return Memory(np.zeros(n), np.zeros((components - 1, n)), none)
 
     def after(
         self, joints: ElasticJoints, moved: FloatArray, normal: FloatArray, motions: Sequence[FloatArray] = ()

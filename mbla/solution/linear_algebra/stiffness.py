@@ -128,7 +128,7 @@ class Stiffness(Places):
         for entries in further:
             matrix.data -= np.bincount(entries.place, entries.values, len(matrix.data))
         finite = bool(np.isfinite(matrix.data).all())
-        factors = factors_on_the_diagonal(matrix, PIVOT_THRESHOLD, ordered=True) if finite else None
+        factors = factors_on_the_diagonal(matrix, PIVOT_THRESHOLD) if finite else None
         return None if factors is None else BorderedFactors(matrix, factors, self.order)
 
     def _matrix(self, tangents: FloatArray, shift: FloatArray, fixed_load: bool) -> sp.csc_array:

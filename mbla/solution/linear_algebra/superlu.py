@@ -12,7 +12,6 @@ L D Lᵀ; they are looked at, which takes a copy of the factors.
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Literal
 
 import numpy as np
 import scipy.sparse as sp
@@ -51,19 +50,15 @@ def factorize(matrix: sp.sparray, *, symmetric: bool = False) -> Solve | None:
     return None
 
 
-def factors_on_the_diagonal(
-    matrix: sp.csc_matrix | sp.csc_array, threshold: float, *, ordered: bool = False
-) -> spla.SuperLU | None:
-    """Factors of a matrix of symmetric pattern, by minimum degree; None where it is exactly singular.
+def factors_on_the_diagonal(matrix: sp.csc_matrix | sp.csc_array, threshold: float) -> spla.SuperLU | None:
+    """Factors of a matrix of symmetric pattern in the order of elimination; None where it is exactly singular.
 
     threshold : a diagonal pivot is taken unless it is smaller than this share of the largest one in its column
-    ordered   : rows and columns stand in the order of elimination already
     """
-    order: Literal["NATURAL", "MMD_AT_PLUS_A"] = "NATURAL" if ordered else "MMD_AT_PLUS_A"
     options = {"SymmetricMode": True}
     held = matrix if isinstance(matrix, sp.csc_array) else sp.csc_array(matrix)
     try:
-        factors = spla.splu(held, permc_spec=order, diag_pivot_thresh=threshold, relax=SUBTREE, options=options)
+        factors = spla.splu(held, permc_spec="NATURAL", diag_pivot_thresh=threshold, relax=SUBTREE, options=options)
     except RuntimeError:
         return None
     return factors
@@ -99,7 +94,7 @@ class SuperluFactors:
         if not np.isfinite(values).all():
             return False
         np.take(values, self._place, out=self._matrix.data)
-        factors = factors_on_the_diagonal(self._matrix, 0.0, ordered=True)
+        factors = factors_on_the_diagonal(self._matrix, 0.0)
         if factors is None or not _is_definite(factors):
             return False
         self._factors = factors

@@ -22,10 +22,9 @@ little, and comes back to it at another, lower mechanism.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from itertools import repeat
 
 import numpy as np
 
@@ -85,22 +84,9 @@ class Alternation:
         """The program of the motion against given friction."""
         return kinematic_form(self.program, self._lagged(np.zeros(self.program.n_points)), reduce_dry=False)
 
-    def states(self, normal: FloatArray, penalties: Iterable[float] = repeat(0.0)) -> Iterator[CollapseState]:
-        """States of pairs of programs, one for each penalty, or until one of them has no solution.
-
-        normal : (n_points,) normal forces to start from
-        penalties : τ of each pair
-        """
-        return self.states_from(self.motion_for(normal), penalties)
-
-    def states_from(
-        self, velocities: FloatArray | None, penalties: Iterable[float] = repeat(0.0)
-    ) -> Iterator[CollapseState]:
-        """The same from velocities, (n_rows,); none from None."""
-        for penalty in penalties:
-            found = None if velocities is None else self.pair(velocities, penalty)
-            if found is None:
-                return
+    def states_from(self, velocities: FloatArray | None) -> Iterator[CollapseState]:
+        """States of pairs of programs from velocities, (n_rows,), until one of them has no solution; none from None."""
+        while velocities is not None and (found := self.pair(velocities, 0.0)) is not None:
             state, velocities = found
             yield state
 

@@ -19,7 +19,6 @@ from mbla.solution.nonassociative.locking import locking_forces, locking_forces_
 from mbla.solution.parts.assemble_parts import assemble_parts
 from mbla.solution.parts.part_context import PartContext
 from mbla.solution.parts.part_result import PartResult
-from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import Mechanics, PathByStiffness, ProgramRecord, Solution, Status
 
 FAILED = (
@@ -147,8 +146,8 @@ def _without_load_factor(solved: SolvedParts, part: int) -> Solution:
     motion, motions = None, None
     if associative.certificate is not None:
         motion, motions = certificate_of(solved.parts[part], associative.certificate)
-    solution = _solution(solved.context.settings, status, reason)
-    return replace(solution, certificate=motion, certificate_motions=motions, lock=lock)
+    rule = solved.context.settings.analysis.flow_rule
+    return Solution(rule, status, certificate=motion, reason=reason, certificate_motions=motions, lock=lock)
 
 
 def _with_load_factor(solved: SolvedParts, first: int, first_associative: int) -> Solution:
@@ -157,8 +156,11 @@ def _with_load_factor(solved: SolvedParts, first: int, first_associative: int) -
     at_collapse = [each.associative.state for each in results]
     remarks = [remark for each in results for remark in each.remarks]
     locked = all(state is None for state in at_collapse)  # with normality alone
-    solution = replace(
-        _solution(context.settings, *_claim(results, first)),
+    status, reason = _claim(results, first)
+    solution = Solution(
+        analysis.flow_rule,
+        status,
+        reason=reason,
         tolerance_requested=_tolerance_requested(results),
         associative=solved.mechanics(
             first_associative,
@@ -235,22 +237,6 @@ def _tolerance_requested(results: Sequence[PartResult]) -> float | None:
     requested = [result.tolerance_requested for result in open_parts if result.status is Status.APPROXIMATE]
     known = [value for value in requested if value is not None]
     return max(known) if known and len(known) == len(open_parts) else None
-
-
-def _solution(settings: SolverSettings, status: Status, reason: str) -> Solution:
-    """A solution without forces and mechanism."""
-    analysis = settings.analysis
-    return Solution(
-        flow_rule=analysis.flow_rule,
-        status=status,
-        mechanics=None,
-        associative=None,
-        certificate=None,
-        reason=reason,
-        programs=(),
-        iterations=(),
-        seconds=0.0,
-    )
 
 
 def renumbered(records: Sequence[ProgramRecord]) -> tuple[ProgramRecord, ...]:

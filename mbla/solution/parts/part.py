@@ -109,7 +109,8 @@ def with_least(result: PartResult, context: PartContext) -> PartResult:
     try:
         least = least_found(program, slope, state, result.associative, settings, context.log, records)
     except np.linalg.LinAlgError as error:
-        return result.with_remark(SEARCH_BROKE_DOWN.format(str(error).lower()))
+        remark = SEARCH_BROKE_DOWN.format(str(error).lower())
+        return replace(result, remarks=(*result.remarks, remark))
     return replace(result, least=least, more=(*result.more, *records[known:]))
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from mbla.errors import Message
 from mbla.program.program import Program
@@ -35,11 +35,6 @@ class PartResult:
     least: CollapseState | None = None
     remarks: tuple[Message, ...] = ()
     more: tuple[ProgramRecord, ...] = ()
-
-    def with_remark(self, remark: Message | None, programs: tuple[ProgramRecord, ...] = ()) -> PartResult:
-        """The same with one more remark, unless there is none, and more programs."""
-        remarks = (*self.remarks, remark) if remark else self.remarks
-        return replace(self, remarks=remarks, more=(*self.more, *programs))
 
     @property
     def state(self) -> CollapseState | None:

@@ -61,35 +61,28 @@ that nothing is left of the latter in double precision."""
 
 @stage("repair")
 def repaired_forces(
-    program: Program,
-    forces: FloatArray,
-    load_factor: float,
-    slacks: FloatArray | None = None,
-    inside: float = INSIDE,
+    program: Program, forces: FloatArray, load_factor: float, slacks: FloatArray | None = None
 ) -> tuple[FloatArray, float] | None:
     """Forces near the given ones that balance the loads within all conditions, and the load factor they carry.
 
     forces : (n_points, components), non-dimensional as ``program``, like the load factor. None where no repair is found
     slacks : (n_slacks,) of the conditions on interfaces, where the program has such: without them there is none
-    inside : excess over a yield condition that is allowed
     """
     if slacks is None and program.conditions is not None:
         return None
     none = np.zeros(0)
-    best, least = _repaired(program, _Forces(forces, none if slacks is None else slacks, load_factor), inside, NORMAL)
+    best, least = _repaired(program, _Forces(forces, none if slacks is None else slacks, load_factor), NORMAL)
     if slacks is None:
         return best
     for share in NEGLIGIBLE:
         if least <= GOOD_EQUILIBRIUM:
             break
-        found = _by_what_counts(program, _Forces(forces, slacks, load_factor), inside, share)
+        found = _by_what_counts(program, _Forces(forces, slacks, load_factor), share)
         best, least = min((best, least), found, key=lambda each: each[1])
     return best
 
 
-def _by_what_counts(
-    program: Program, given: _Forces, inside: float, share: float
-) -> tuple[tuple[FloatArray, float] | None, float]:
+def _by_what_counts(program: Program, given: _Forces, share: float) -> tuple[tuple[FloatArray, float] | None, float]:
     """The repair without the points whose normal force is below a share of the largest, by the augmented system.
 
     Interfaces without force are at the apex of their conditions, where nothing is left of the digits of their slacks.
@@ -97,7 +90,7 @@ def _by_what_counts(
     normal, c = np.abs(given.x[:, 0]), program.components
     kept = normal >= share * normal.max(initial=0.0)
     if kept.all():
-        best, least = _repaired(program, given, inside, AUGMENTED)
+        best, least = _repaired(program, given, AUGMENTED)
         return best, least
     assert program.conditions is not None
     numbers = np.flatnonzero(np.repeat(kept, c))
@@ -105,7 +98,7 @@ def _by_what_counts(
     limits = YieldLimits(**{name: values[kept] for name, values in vars(program.limits).items()})
     matrix = sp.csr_array(program.equilibrium_matrix[:, numbers])
     less = replace(program, equilibrium_matrix=matrix, limits=limits, conditions=conditions, reduction=None)
-    best, least = _repaired(less, _Forces(given.x[kept], given.s[rows], given.factor), inside, AUGMENTED)
+    best, least = _repaired(less, _Forces(given.x[kept], given.s[rows], given.factor), AUGMENTED)
     if best is None:
         return None, np.inf
     forces = np.zeros_like(given.x)
@@ -156,9 +149,7 @@ BORDER = 0.999
 """Share of the way to the border of a cone that a step goes."""
 
 
-def _repaired(
-    program: Program, given: _Forces, inside: float, way: _Way
-) -> tuple[tuple[FloatArray, float] | None, float]:
+def _repaired(program: Program, given: _Forces, way: _Way) -> tuple[tuple[FloatArray, float] | None, float]:
     """The best forces and load factor, and what they leave unbalanced; None and infinity without."""
     further, now, best, least = ConditionCones.of(program), given, None, np.inf
     for _ in range(way.rounds + 1):
@@ -166,7 +157,7 @@ def _repaired(
         excess = max(
             float(yield_violation(now.x, program.limits).max(initial=0.0)), further.lack(now.s).max(initial=0.0)
         )
-        if excess <= max(inside, now.rounding) and off <= min(least, max(EQUILIBRIUM_TOLERANCE, now.rounding)):
+        if excess <= max(INSIDE, now.rounding) and off <= min(least, max(EQUILIBRIUM_TOLERANCE, now.rounding)):
             enough = off <= max(BALANCED, now.rounding) or off > PROGRESS * least
             best, least = (now.x, now.factor), off
             if enough:

@@ -176,17 +176,13 @@ def least_forces(
     return form.forces(solution.x) if solution.status in WITH_VALUE else solution
 
 
-def gravity_forces(
-    program: Program, settings: SolverSettings, log: Log, known: StressFree | None = None
-) -> FloatArray | ConeSolution:
+def gravity_forces(program: Program, settings: SolverSettings, log: Log) -> FloatArray | ConeSolution:
     """Forces under the dead load, (n_points, components): those that arise from the stress-free assembly where it
     stands, else the least that carry the dead load, or the solver's verdict.
 
     The least forces may hold a thrust between walls that nothing has caused.
-
-    known : ``stress_free_state`` of the program where it was found before
     """
-    found = known or stress_free_state(program)
+    found = stress_free_state(program)
     return least_forces(program, settings, log) if found.rest is None else found.rest.forces
 
 

@@ -97,10 +97,10 @@ class Case:
         """Of the loaded part."""
         return solve_associative(self.loaded, self.settings, lambda record: None, stress_free=False)
 
-    def path(self, settings: PathSettings = DEFAULT, slope: float = 0.0, gaps: FloatArray | None = None) -> PathOfPart:
+    def path(self, settings: PathSettings = DEFAULT, slope: float = 0.0) -> PathOfPart:
         """Of the loaded part; joints dilate by a share of their friction."""
         program = self.loaded
-        return path_of_part(program, self.associative(), settings, slope * program.limits.friction, gaps=gaps)
+        return path_of_part(program, self.associative(), settings, slope * program.limits.friction)
 
     def load_factor(self, settings: PathSettings = DEFAULT, slope: float = 0.0) -> float:
         """Of the model."""

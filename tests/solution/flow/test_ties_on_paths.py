@@ -48,18 +48,6 @@ def test_the_stiffness_of_ties_does_not_count(
     assert case.load_factor() == pytest.approx(expected, rel=CLOSE)
 
 
-@pytest.mark.parametrize(("name", "expected"), HELD)
-@pytest.mark.parametrize("slack", [2.0, 20.0])
-def test_nor_does_their_slack(name: str, expected: float, slack: float) -> None:
-    """In units of displacement, of which the path goes fifty."""
-    case = case_of(TIED, name)
-    program, tight = case.loaded, case.path()
-    assert tight.path is not None
-    gaps = np.where(program.limits.friction == 0.0, slack * tight.path.unit / expected, 0.0)
-    found = program.scaling.load_factor(case.path(gaps=gaps).load_factor)
-    assert found == pytest.approx(expected, rel=CLOSE)
-
-
 @pytest.mark.parametrize(
     ("name", "expected", "close"), [("burst", 3.3196, 2e-5), ("lift", 0.301937, 1e-3), ("drag", 0.562128, CLOSE)]
 )

@@ -67,7 +67,7 @@ def test_a_state_of_the_law_is_left_as_it_is() -> None:
     forces, load_factor = found
     assert program.scaling.load_factor(load_factor) == pytest.approx(0.5, rel=1e-8)
     assert off_the_law(alternation, forces, load_factor, velocities) == pytest.approx(0.0, abs=1e-8)
-    state = next(alternation.states(forces[:, 0]))
+    state = next(alternation.states_from(alternation.motion_for(forces[:, 0])))
     assert state.residual < 1e-8
 
 
@@ -82,7 +82,7 @@ def test_a_little_tilt_finds_an_end_of_the_range_of_a_mechanism(tilt: float, end
 
 def test_each_pair_is_recorded_as_two_programs() -> None:
     alternation = programs_of(line_of(BLOCK).program)
-    states = list(islice(alternation.states(np.ones(alternation.program.n_points)), 2))
+    states = list(islice(alternation.states_from(alternation.motion_for(np.ones(alternation.program.n_points))), 2))
     assert len(states) == 2
     kinds = [record.kind for record in alternation.records]
     assert kinds == ["motion", "forces", "motion", "forces", "motion"]

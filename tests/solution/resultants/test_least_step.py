@@ -20,7 +20,7 @@ CONES = ConeVectors(np.array([1, 3, 4, 1, 3]))
 
 def inside(seed: int, distance: float) -> np.ndarray:
     """Vectors of all cones at a relative distance from their borders."""
-    return CONES.pulled_inside(np.random.default_rng(seed).normal(size=12), distance)
+    return CONES.pulled_inside(np.random.default_rng(seed).normal(size=12), distance, np.full(5, np.inf))
 
 
 @pytest.mark.parametrize("distance", [1.0, 1e-6])
