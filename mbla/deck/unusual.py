@@ -50,7 +50,8 @@ class Usual:
 
     def remark(self, value: float, units: Units) -> str:
         """What is odd about a value; nothing where it is between the limits."""
-        low, high = (units.convert(end, self.dimension) if isinstance(end, str) else end for end in self.ends)
+        ends = (self.least, self.most)
+        low, high = (units.convert(end, self.dimension) if isinstance(end, str) else end for end in ends)
         if low <= value <= high:
             return ""
         if not self.meant:
@@ -61,14 +62,13 @@ class Usual:
         unit = min(others, key=lambda unit: abs(math.log(others[unit] / typical)))
         return f'{remark}; "{value:.6g} {unit}" may be meant' if low <= others[unit] <= high else remark
 
-    @property
-    def ends(self) -> tuple[float | str, float | str]:
-        """Both limits."""
-        return self.least, self.most
-
 
 STRESSES = ("MPa", "kPa", "Pa")
-WEAK = "and that of mortar joints is some 10 kPa to 1 MPa"
+MORTAR = Usual("1 kPa", "1 GPa", "and that of mortar joints is some 10 kPa to 1 MPa", "stress", STRESSES, "0.1 MPa")
+STEP, PATH = (
+    Usual(0.0, most, "a displacement no structure survives", "length", ("mm", "cm"), "100 mm")
+    for most in ("10 m", "100 m")
+)
 
 USUAL: dict[str, dict[str, Usual]] = {
     "materials": {
@@ -84,8 +84,8 @@ USUAL: dict[str, dict[str, Usual]] = {
         "friction_angle": Usual(
             1.0, 78.7, "is not that of masonry, 20 to 45 degrees; a coefficient is given as friction"
         ),
-        "cohesion": Usual("1 kPa", "1 GPa", WEAK, "stress", STRESSES, "0.1 MPa"),
-        "tensile_strength": Usual("1 kPa", "1 GPa", WEAK, "stress", STRESSES, "0.1 MPa"),
+        "cohesion": MORTAR,
+        "tensile_strength": MORTAR,
         "compressive_strength": Usual(
             "10 kPa",
             "10 GPa",
@@ -103,17 +103,11 @@ USUAL: dict[str, dict[str, Usual]] = {
     "plate": {
         "diameter": Usual("1 mm", "5 m", "which no anchor plate has", "length", ("mm", "cm", "m"), "200 mm"),
         "wall": Usual("1 mm", "20 m", "which no wall has", "length", ("mm", "cm", "m"), "0.5 m"),
-        "shear_strength": Usual("1 kPa", "1 GPa", WEAK, "stress", STRESSES, "0.1 MPa"),
-        "tensile_strength": Usual("1 kPa", "1 GPa", WEAK, "stress", STRESSES, "0.1 MPa"),
+        "shear_strength": MORTAR,
+        "tensile_strength": MORTAR,
     },
-    "pushover": {
-        "step": Usual(0.0, "10 m", "a displacement no structure survives", "length", ("mm", "cm"), "100 mm"),
-        "until": Usual(0.0, "100 m", "a displacement no structure survives", "length", ("mm", "cm"), "100 mm"),
-    },
-    "settlement": {
-        "step": Usual(0.0, "10 m", "a displacement no structure survives", "length", ("mm", "cm"), "100 mm"),
-        "amount": Usual(0.0, "100 m", "a displacement no structure survives", "length", ("mm", "cm"), "100 mm"),
-    },
+    "pushover": {"step": STEP, "until": PATH},
+    "settlement": {"step": STEP, "amount": PATH},
     "pressure": {
         "per_depth": Usual(
             "0.1 kN/m^3",
@@ -179,11 +173,10 @@ def _places(content: DeckContent) -> Iterator[tuple[KeyPath, str, Any]]:
 
 
 def _spectra(content: DeckContent) -> Iterator[tuple[KeyPath, SpectrumSection]]:
-    assessed = {name: case.assessment for name, case in content.load_cases.items() if case.assessment is not None}
-    for name, assessment in assessed.items():
+    for name, case in content.load_cases.items():
+        spectra = None if case.assessment is None else case.assessment.spectra
         for state in LIMIT_STATES:
-            spectrum = getattr(assessment.spectra, state)
-            if spectrum is not None:
+            if (spectrum := getattr(spectra, state, None)) is not None:
                 yield ("load_cases", name, "assessment", "spectra", state), spectrum
 
 

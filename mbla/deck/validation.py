@@ -30,29 +30,28 @@ def validate(
     reported : marks of values that the reader has complained of; they are not reported again
     damaged  : marks of mappings that lack something the reader has complained of
     """
-    errors: Sequence[Any]
-    try:
-        return validator(root).validate_python(tree.data, context={"convert": convert, WRONG: WrongValues()}), []
-    except ValidationError as error:
-        errors = error.errors(include_url=False, include_context=True)
-    except TooManyWrongError:
-        errors = _errors_of_first(tree.data, root, convert)
-        if not errors:
-            return None, [Fault(tree.place_of(tree.marks.own), "", TOO_MANY)]
+    content, errors = _checked(root, tree.data, convert)
+    if content is not None:
+        return content, []
+    if errors is None:  # too many: what is wrong with the first items of the lists
+        first = {
+            key: value[: MOST_FAULTS + 1] if isinstance(value, list) else value for key, value in tree.data.items()
+        }
+        errors = _checked(root, first, convert)[1]
+    if not errors:
+        return None, [Fault(tree.place_of(tree.marks.own), "", TOO_MANY)]
     around = damaged | {mark for path in _paths_of(tree, reported) for mark in tree.marks_along(path)[:-1]}
     return None, first_faults(_faults(tree, root, errors, reported, around))
 
 
-def _errors_of_first(data: dict[str, Any], root: type[BaseModel], convert: Convert) -> Sequence[Any]:
-    """What is wrong with the first items of the lists of a deck; nothing where that is too much as well."""
-    first = {key: value[: MOST_FAULTS + 1] if isinstance(value, list) else value for key, value in data.items()}
+def _checked(root: type[Root], data: dict[str, Any], convert: Convert) -> tuple[Root | None, Sequence[Any] | None]:
+    """Content, or what is wrong with it; nothing of either where that is too much."""
     try:
-        validator(root).validate_python(first, context={"convert": convert, WRONG: WrongValues()})
+        return validator(root).validate_python(data, context={"convert": convert, WRONG: WrongValues()}), None
     except ValidationError as error:
-        return error.errors(include_url=False, include_context=True)
+        return None, error.errors(include_url=False, include_context=True)
     except TooManyWrongError:
-        pass
-    return []
+        return None, None
 
 
 def _faults(

@@ -19,7 +19,7 @@ from mbla.model.blocks.generated import Generated, ItemContext, ItemPart, ItemRe
 from mbla.model.geometry.sheets import sheets
 from mbla.model.model import Ground
 from mbla.model.solids.blocks import Blocks, join_labels, labels_of
-from mbla.model.solids.build import Labels, indices_in_groups
+from mbla.model.solids.build import Labels
 from mbla.model.solids.defects import Defect
 from mbla.model.solids.polyhedra import Polyhedra, join_polyhedra, take_polyhedra
 from mbla.model.solids.surface import GroundSurface
@@ -106,7 +106,6 @@ def collect_items(deck: Deck, faults: list[Fault]) -> CollectedItems:
     densities = {name: density_of(material, deck.units) for name, material in deck.content.materials.items()}
     labels = Labels(
         groups,
-        indices_in_groups(groups),
         np.repeat([densities[part.material or ""] for part in parts], counts),
         join_labels([labels_of(len(part.polyhedra), part.member, part.labels) for part in parts]),
     )

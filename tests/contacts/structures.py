@@ -14,7 +14,7 @@ from mbla.deck.sections.contacts import ContactOverride, ContactsSection
 from mbla.deck.units import Units
 from mbla.model.model import Ground, Joint, Model
 from mbla.model.solids.blocks import Blocks, labels_of
-from mbla.model.solids.build import Labels, build_blocks, indices_in_groups
+from mbla.model.solids.build import Labels, build_blocks
 from mbla.model.solids.polyhedra import Polyhedra, cuboids, polyhedra_from_lists, take_polyhedra
 
 DECKS = Path(__file__).parents[2] / "decks"
@@ -23,9 +23,7 @@ DECKS = Path(__file__).parents[2] / "decks"
 def blocks_of(polyhedra: Polyhedra, groups: Sequence[str] | None = None) -> Blocks:
     """Blocks of density 1."""
     names = tuple(groups) if groups is not None else ("block",) * len(polyhedra)
-    built = build_blocks(
-        polyhedra, Labels(names, indices_in_groups(names), np.ones(len(names)), labels_of(len(names))), 1e-3
-    )
+    built = build_blocks(polyhedra, Labels(names, np.ones(len(names)), labels_of(len(names))), 1e-3)
     assert not built.defects
     return built.blocks
 

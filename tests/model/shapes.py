@@ -57,7 +57,7 @@ def build(*shapes: Shape, tolerance: float = 1e-3) -> BuiltBlocks:
 
 def build_raw(polyhedra: Polyhedra, tolerance: float = 1e-3) -> BuiltBlocks:
     n = len(polyhedra)
-    return build_blocks(polyhedra, Labels(("b",) * n, np.arange(n), np.ones(n), labels_of(n)), tolerance)
+    return build_blocks(polyhedra, Labels(("b",) * n, np.ones(n), labels_of(n)), tolerance)
 
 
 def moved(shape: Shape, matrix: FloatArray, offset: Sequence[float] = (0, 0, 0)) -> Shape:

@@ -21,9 +21,7 @@ def fault_at(path: KeyPath, message: Message) -> Fault:
 def selection(partial: frozenset[str] = frozenset()) -> BlockSelection:
     """Ten unit cubes along x; even ones are group a, odd ones b; the a are two copies of courses 0, 0, 1 and 0, 0."""
     least = np.array([[2.0 * i, 0, 0] for i in range(10)])
-    labels = Labels(
-        ("a", "b") * 5, np.repeat(np.arange(5), 2), np.ones(10), join_labels([_within(cube) for cube in range(10)])
-    )
+    labels = Labels(("a", "b") * 5, np.ones(10), join_labels([_within(cube) for cube in range(10)]))
     return BlockSelection(build_blocks(cuboids(least, least + 1), labels, 1e-3).blocks, partial, fault_at)
 
 

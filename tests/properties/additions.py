@@ -58,12 +58,7 @@ def split_in_two(scene: Scene, askew: float) -> Scene | None:
     own_labels = BlockLabels((blocks.labels.members[block],), blocks.labels.positions[[block]])
     labels = join_labels([blocks.labels, own_labels])
     index = sum(name == group for name in blocks.groups)
-    named = Labels(
-        (*blocks.groups, group),
-        np.append(blocks.group_indices, index),
-        np.append(blocks.densities, blocks.densities[block]),
-        labels,
-    )
+    named = Labels((*blocks.groups, group), np.append(blocks.densities, blocks.densities[block]), labels)
     built = build_blocks(everything, named, scene.deck.contacts.tolerance)
     assert not built.defects, built.defects
     arm = blocks.centroids[block] - built.blocks.centroids[block]

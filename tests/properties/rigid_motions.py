@@ -23,7 +23,7 @@ from tests.properties.scenes import Scene, with_section
 
 def rebuilt(blocks: Blocks, polyhedra: Polyhedra, tolerance: float) -> Blocks:
     """Blocks measured anew from other polyhedra of the same number, names and densities."""
-    labels = Labels(blocks.groups, blocks.group_indices, blocks.densities, blocks.labels)
+    labels = Labels(blocks.groups, blocks.densities, blocks.labels)
     built = build_blocks(polyhedra, labels, tolerance)
     assert not built.defects, built.defects
     return built.blocks
@@ -109,11 +109,14 @@ def _moved_overrides(scene: Scene, matrix: FloatArray, shift: FloatArray) -> Sce
 def taken_blocks(blocks: Blocks, order: IntArray, tolerance: float) -> Blocks:
     """Blocks in another order."""
     labels = BlockLabels(tuple(blocks.labels.members[b] for b in order), blocks.labels.positions[order])
-    named = Labels(tuple(blocks.groups[b] for b in order), blocks.group_indices[order], blocks.densities[order], labels)
+    named = Labels(tuple(blocks.groups[b] for b in order), blocks.densities[order], labels)
     built = build_blocks(take_polyhedra(polyhedra_of(blocks), order), named, tolerance)
     assert not built.defects, built.defects
     return replace(
-        built.blocks, added_masses=blocks.added_masses[order], added_mass_points=blocks.added_mass_points[order]
+        built.blocks,
+        group_indices=blocks.group_indices[order],
+        added_masses=blocks.added_masses[order],
+        added_mass_points=blocks.added_mass_points[order],
     )
 
 

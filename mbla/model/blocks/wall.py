@@ -10,7 +10,7 @@ from pydantic import Field
 from mbla.deck.positions import COURSE, LEAF, UNIT, VOUSSOIR
 from mbla.deck.quantities import PositiveLength
 from mbla.deck.section import rule
-from mbla.errors import Finding
+from mbla.errors import Finding, KeyPath
 from mbla.model.blocks.generated import Generated, ItemContext
 from mbla.model.blocks.item import ItemKind, register_item
 from mbla.model.blocks.masonry.masonry import (
@@ -19,9 +19,7 @@ from mbla.model.blocks.masonry.masonry import (
     Gable,
     Masonry,
     Opening,
-    check_buttress,
-    check_gable,
-    check_opening,
+    check_part,
     units_of_walls,
 )
 
@@ -38,13 +36,11 @@ class WallItem(Masonry):
 @rule(WallItem)
 def wall(item: WallItem) -> Iterator[Finding]:
     """All that a straight wall has."""
-    for number, opening in enumerate(item.openings):
-        yield from (finding.below("openings", number) for finding in check_opening(item, opening, item.length))
-    if item.gable is not None:
-        yield from (finding.below("gable") for finding in check_gable(item, item.gable, item.length))
-    for number, buttress in enumerate(item.buttresses):
-        found = check_buttress(item, buttress, item.length)
-        yield from (finding.below("buttresses", number) for finding in found)
+    parts: dict[KeyPath, Opening | Gable | Buttress] = {("openings", n): each for n, each in enumerate(item.openings)}
+    parts |= {} if item.gable is None else {("gable",): item.gable}
+    parts |= {("buttresses", n): each for n, each in enumerate(item.buttresses)}
+    for path, part in parts.items():
+        yield from (finding.below(*path) for finding in check_part(item, part, item.length))
 
 
 def generate(item: WallItem, context: ItemContext) -> Generated:

@@ -21,9 +21,7 @@ from mbla.model.blocks.masonry.masonry import (
     Gable,
     Masonry,
     Opening,
-    check_buttress,
-    check_gable,
-    check_opening,
+    check_part,
     units_of_walls,
 )
 
@@ -84,10 +82,10 @@ def walls(item: WallsItem) -> Iterator[Finding]:
         yield from faults
         return
     lengths = [max(abs(b - a) for a, b in zip(start, end, strict=True)) for _, start, end in lines]
-    for key, check in (("openings", check_opening), ("gables", check_gable), ("buttresses", check_buttress)):
+    for key in ("openings", "gables", "buttresses"):
         for number, part in enumerate(getattr(item, key)):
             if part.segment < len(lengths):
-                found = check(item, part, lengths[part.segment])
+                found = check_part(item, part, lengths[part.segment])
             else:
                 words = f"must be <= {len(lengths) - 1}: there are {len(lengths)} walls, from 0"
                 found = iter([Finding("out-of-bounds", words, "segment")])

@@ -76,24 +76,20 @@ def _merged(polyhedra: Polyhedra, target: IntArray) -> Welded:
     corners = np.bincount(polyhedra.face_of_corner[kept], minlength=len(polyhedra.block_of_face))
     valid = corners >= 3
     kept &= valid[polyhedra.face_of_corner]
-    face_counts = np.bincount(polyhedra.block_of_face[valid], minlength=len(polyhedra))
-    welded = Polyhedra(
-        polyhedra.vertices, polyhedra.vertex_start, loops[kept], starts(corners[valid]), starts(face_counts)
-    )
     merged = int((target != np.arange(len(target))).sum())
-    return Welded(drop_unused_vertices(welded)[0], merged, int((~valid).sum()))
+    return Welded(_with_faces(polyhedra, loops[kept], corners[valid], valid), merged, int((~valid).sum()))
 
 
 def take_faces(polyhedra: Polyhedra, kept: BoolArray) -> Polyhedra:
     """The same polyhedra with some of their faces only, (n_faces,); vertices that no face uses go with the others."""
-    corners = kept[polyhedra.face_of_corner]
-    taken = Polyhedra(
-        polyhedra.vertices,
-        polyhedra.vertex_start,
-        polyhedra.loops[corners],
-        starts(np.diff(polyhedra.loop_start)[kept]),
-        starts(np.bincount(polyhedra.block_of_face[kept], minlength=len(polyhedra))),
-    )
+    loops = polyhedra.loops[kept[polyhedra.face_of_corner]]
+    return _with_faces(polyhedra, loops, np.diff(polyhedra.loop_start)[kept], kept)
+
+
+def _with_faces(polyhedra: Polyhedra, loops: IntArray, corners: IntArray, kept: BoolArray) -> Polyhedra:
+    """The same polyhedra with those faces that are kept, (n_faces,), and other corners of these, so many of each."""
+    counts = np.bincount(polyhedra.block_of_face[kept], minlength=len(polyhedra))
+    taken = Polyhedra(polyhedra.vertices, polyhedra.vertex_start, loops, starts(corners), starts(counts))
     return drop_unused_vertices(taken)[0]
 
 

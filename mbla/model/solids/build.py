@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, fields, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -43,14 +43,22 @@ PLANAR = 1e-9
 
 @dataclass(frozen=True)
 class Labels:
-    """What blocks are called and made of: ``groups`` (n,), ``group_indices`` (n,), ``densities`` (n,), ``within`` (n)
-    the labels within their groups.
+    """What blocks are called and made of: ``groups`` (n,), ``densities`` (n,), ``within`` (n) the labels within their
+    groups.
     """
 
     groups: tuple[str, ...]
-    group_indices: IntArray
     densities: FloatArray
     within: BlockLabels
+
+    @cached_property
+    def group_indices(self) -> IntArray:
+        """Position of each block in its group, from 0, (n,)."""
+        codes = np.unique(np.array(self.groups, dtype=np.str_), return_inverse=True)[1]
+        order, counts = np.argsort(codes, kind="stable"), np.bincount(codes)
+        indices = np.empty(len(codes), dtype=np.int64)
+        indices[order] = np.arange(len(codes)) - np.repeat(np.cumsum(counts) - counts, counts)
+        return indices
 
     def name(self, block: int) -> str:
         """As ``Blocks.name``."""
@@ -68,16 +76,6 @@ class BuiltBlocks:
     notices: tuple[Notice, ...]
     defects: tuple[Defect, ...]
     bent: BentFaces
-
-
-def indices_in_groups(groups: Sequence[str]) -> IntArray:
-    """Position of each block in its group, from 0, (n,)."""
-    codes = np.unique(np.array(groups, dtype=np.str_), return_inverse=True)[1]
-    order = np.argsort(codes, kind="stable")
-    counts = np.bincount(codes)
-    indices = np.empty(len(codes), dtype=np.int64)
-    indices[order] = np.arange(len(codes)) - np.repeat(np.cumsum(counts) - counts, counts)
-    return indices
 
 
 def build_blocks(polyhedra: Polyhedra, labels: Labels, tolerance: float) -> BuiltBlocks:

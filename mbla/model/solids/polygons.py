@@ -10,7 +10,7 @@ from typing import TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from mbla.arrays import BoolArray, FloatArray, IntArray, starts
+from mbla.arrays import BoolArray, FloatArray, IntArray, row_of_item, starts
 from mbla.model.solids.convex import clip_convex, convex_loops, signed_areas
 from mbla.process.late import shapely
 
@@ -100,14 +100,7 @@ def map_polygons(polygons: Polygons, matrices: FloatArray, offsets: FloatArray) 
     offsets  : (n, 2)
     """
     points, row = shapely.get_coordinates(polygons, return_index=True)
-    m = matrices[row]
-    mapped = np.stack(
-        [
-            m[:, 0, 0] * points[:, 0] + m[:, 0, 1] * points[:, 1] + offsets[row, 0],
-            m[:, 1, 0] * points[:, 0] + m[:, 1, 1] * points[:, 1] + offsets[row, 1],
-        ],
-        axis=1,
-    )
+    mapped = (matrices[row] * points[:, None]).sum(axis=2) + offsets[row]
     result: Polygons = shapely.set_coordinates(polygons.copy(), mapped)
     return result
 
@@ -139,11 +132,11 @@ def _intersect_convex(first: Polygons, second: Polygons) -> Polygons:
     return common
 
 
-def _open_loops(polygons: Polygons) -> tuple[FloatArray, IntArray]:
-    """Corners of polygons without holes, the closing one left out, and their starts."""
-    points, row = shapely.get_coordinates(polygons, return_index=True)
-    closing = np.append(row[1:] != row[:-1], True)
-    return points[~closing], starts(np.bincount(row[~closing], minlength=len(polygons)).astype(np.int64))
+def _open_loops(loops: Polygons) -> tuple[FloatArray, IntArray]:
+    """Corners of rings, or of polygons without holes, the closing one left out, and their starts."""
+    points, row = shapely.get_coordinates(loops, return_index=True)
+    kept = np.append(row[1:] == row[:-1], False)[: len(row)]
+    return points[kept], starts(np.bincount(row[kept], minlength=len(loops)).astype(np.int64))
 
 
 def boxes_overlap(first: Polygons, second: Polygons, margin: float) -> BoolArray:
@@ -184,11 +177,8 @@ def rings(polygons: Polygons) -> tuple[FloatArray, IntArray, IntArray]:
     polygon_of_ring : (n_rings,)     the outer ring of each polygon comes first
     """
     loops, polygon = shapely.get_rings(polygons, return_index=True)
-    points, ring = shapely.get_coordinates(loops, return_index=True)
-    closing = np.ones(len(ring), dtype=bool)
-    closing[:-1] = ring[1:] != ring[:-1]
-    points, ring = points[~closing], ring[~closing]
-    start = starts(np.bincount(ring, minlength=len(loops)).astype(np.int64))
+    points, start = _open_loops(loops)
+    ring = row_of_item(start)
     outer = np.ones(len(loops), dtype=bool)
     outer[1:] = polygon[1:] != polygon[:-1]
     wrong = (signed_areas(points, start) > 0) != outer

@@ -24,7 +24,7 @@ from mbla.model.model import Ground, LoadCase, Model, Pushing
 from mbla.model.selectors import BlockSelection, check_overrides
 from mbla.model.settlement import with_reference
 from mbla.model.solids.blocks import BlockLabels, Blocks, carried_masses, join_labels
-from mbla.model.solids.build import Labels, build_blocks, indices_in_groups
+from mbla.model.solids.build import Labels, build_blocks
 from mbla.model.solids.plane import plane_axes
 from mbla.model.solids.polyhedra import join_polyhedra, take_polyhedra
 from mbla.model.symmetry.halves import halves_joined
@@ -109,7 +109,7 @@ def _labels(model: Model, others: IntArray) -> Labels:
     groups = (*blocks.groups, *(blocks.groups[b] for b in others.tolist()))
     images = BlockLabels(tuple(blocks.labels.members[b] for b in others.tolist()), blocks.labels.positions[others])
     densities = np.concatenate([blocks.densities, blocks.densities[others]])
-    return Labels(groups, indices_in_groups(groups), densities, join_labels([blocks.labels, images]))
+    return Labels(groups, densities, join_labels([blocks.labels, images]))
 
 
 def _grounds(grounds: Sequence[Ground], mirror: MirrorPlane) -> tuple[Ground, ...]:

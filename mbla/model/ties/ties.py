@@ -32,6 +32,8 @@ AT_ONE_PLACE = ("strip", *OF_FILL)
 """forms whose points lie at one place, and whose direction is that of their pulls"""
 ONE_PLACE = 1e-9
 """length of a stretch over that of its line that is none"""
+OF_TIES, OF_POINTS = ("closed", "least", "greatest", "prestress", "breaks_at"), ("bodies", "places", "pulls")
+"""arrays of ``Ties`` with a row for each tie, and for each point"""
 OUTSIDE = -1
 """stands for a block where a tie is held outside of the model"""
 
@@ -110,15 +112,9 @@ class Ties:
         return Ties(
             names=tuple(self.names[row] for row in rows.tolist()),
             forms=tuple(self.forms[row] for row in rows.tolist()),
-            closed=self.closed[rows],
             start=starts(np.diff(self.start)[rows]),
-            bodies=self.bodies[points],
-            places=self.places[points],
-            pulls=self.pulls[points],
-            least=self.least[rows],
-            greatest=self.greatest[rows],
-            prestress=self.prestress[rows],
-            breaks_at=self.breaks_at[rows],
+            **{name: getattr(self, name)[rows] for name in OF_TIES},
+            **{name: getattr(self, name)[points] for name in OF_POINTS},
         )
 
     def measured_by(self, rows: IntArray, body: int, pull: FloatArray) -> Ties:
@@ -146,10 +142,7 @@ def joined_ties(parts: list[Ties]) -> Ties:
         names=tuple(name for part in parts for name in part.names),
         forms=tuple(form for part in parts for form in part.forms),
         start=starts(np.concatenate([np.diff(part.start) for part in parts])),
-        **{
-            name: np.concatenate([getattr(part, name) for part in parts])
-            for name in ("closed", "bodies", "places", "pulls", "least", "greatest", "prestress", "breaks_at")
-        },
+        **{name: np.concatenate([getattr(part, name) for part in parts]) for name in (*OF_TIES, *OF_POINTS)},
     )
 
 

@@ -11,7 +11,6 @@ import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.deck.sections.geometry_file import GeometryFile
-from mbla.deck.sections.supports import Surface
 from mbla.deck.suggestions import unknown
 from mbla.deck.units import METRES
 from mbla.errors import Finding
@@ -25,6 +24,7 @@ from mbla.model.solids.polyhedra import Polyhedra, join_polyhedra, take_polyhedr
 from mbla.model.solids.surface import GroundSurface
 
 if TYPE_CHECKING:
+    from mbla.deck.sections.supports import Surface
     from mbla.model.blocks.mesh import MeshItem
 
 UPRIGHT = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])

@@ -206,6 +206,13 @@ def check_buttress(wall: Masonry, buttress: Buttress, length: float) -> Iterator
         yield Finding("out-of-bounds", words, "courses")
 
 
+def check_part(wall: Masonry, part: Opening | Gable | Buttress, length: float) -> Iterator[Finding]:
+    """What belongs to a wall of some length; key paths below the part."""
+    if isinstance(part, Opening):
+        return check_opening(wall, part, length)
+    return check_gable(wall, part, length) if isinstance(part, Gable) else check_buttress(wall, part, length)
+
+
 @rule(Opening)
 def one_span(opening: Opening) -> Iterator[Finding]:
     """A lintel or an arch."""
