@@ -81,10 +81,6 @@ class Force(Reaction):
         """The lower one first, of both ends."""
         return bounds
 
-    def told(self, value: float, units: Units) -> str:
-        """``a force of 8753.85 N``."""
-        return f"a force of {significant(value)} {self.unit(units)}"
-
     @property
     def unbounded(self) -> str:
         """Of a structure that locks."""

@@ -30,7 +30,7 @@ class Question(Protocol):
     name   : of the question
     group  : of results: ``load_factor``, ``reaction``, ``angle``; the key of what a deck expects
     paths  : in the record of a load case, of the figure and its lower and upper bound
-    series : load case in the deck that became one for each position, or for each end; None where it is one
+    place  : where a travelling load stands
 
     What holds of it
 
@@ -57,6 +57,7 @@ class Question(Protocol):
     name: ClassVar[str]
     group: ClassVar[str] = "load_factor"
     paths: ClassVar[tuple[str, str, str]] = ("load_factor", "static_bound", "kinematic_bound")
+    place: TravelPosition = NOWHERE
     unbounded_answers: ClassVar[bool] = False
     decided_by: ClassVar[tuple[str, ...]] = ("associative", "non_associative")
     multiplies: ClassVar[bool] = True
@@ -78,11 +79,6 @@ class Question(Protocol):
     def record(self, kind: type[Record]) -> Record | None:
         """What it needs of that kind; None where that belongs to another question."""
         return next((each for each in vars(self).values() if isinstance(each, kind)), None)
-
-    @property
-    def place(self) -> TravelPosition:
-        """Where a travelling load stands."""
-        return NOWHERE
 
     @property
     def measured(self) -> tuple[bytes | float, ...]:
@@ -108,7 +104,7 @@ class Question(Protocol):
     @property
     def series(self) -> str | None:
         """Load case in the deck that became one for each position or end; None where it is one."""
-        return None
+        return self.place.series or None
 
     @property
     def giving_way(self) -> IntArray:
@@ -164,7 +160,7 @@ class Question(Protocol):
 
     def least(self, ratio: float) -> float:
         """The smallest figure that means something."""
-        return self.least_factor(ratio)
+        return self.least_factor(ratio) * self.scale
 
     @property
     def by_steps(self) -> bool:

@@ -128,13 +128,9 @@ class Reaction(Question):
         """A share of its unit, in which λ counts."""
         return ZERO
 
-    def least(self, ratio: float) -> float:
-        """That share, as a reaction."""
-        return ZERO * self.scale
-
     def told(self, value: float, units: Units) -> str:
-        """``a reaction of 5232 N``."""
-        return f"a reaction of {significant(value)} {self.unit(units)}"
+        """``a reaction of 5232 N``, ``a force of 8753.85 N``."""
+        return f"a {self.title} of {significant(value)} {self.unit(units)}"
 
     def moves(self, *, by_path: bool) -> str:
         """It stays on its support."""

@@ -13,15 +13,5 @@ from mbla.questions.travel_position import TravelPosition
 class Travel(LoadFactor):
     """The load factor of one position."""
 
-    position: TravelPosition
+    place: TravelPosition
     name: ClassVar[str] = "travel"
-
-    @property
-    def place(self) -> TravelPosition:
-        """That position."""
-        return self.position
-
-    @property
-    def series(self) -> str:
-        """Load case of all positions."""
-        return self.position.series

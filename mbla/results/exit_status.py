@@ -10,7 +10,7 @@ from mbla.errors import Notice
 from mbla.results.force_range import ForceRange, end_value, force_ranges_of
 from mbla.results.outcome import answer_of, associative_of, least_of, result_of
 from mbla.results.results import CaseResult
-from mbla.results.series import position_of, series_of
+from mbla.results.series import series_of
 from mbla.solution.solution import Status
 from mbla.solution.verification.verify_points import meets_what_was_asked
 
@@ -69,7 +69,7 @@ def differences(cases: Sequence[CaseResult], expected: dict[str, Expectation]) -
             found.append(f"{series.name}: {why} ({wanted.source})")
             continue
         found += compare_with_expected(series.worst, wanted)
-        worst = position_of(series.worst).number
+        worst = series.worst.load_case.question.place.number
         if wanted.position is not None and worst != wanted.position:
             found.append(f"{series.name}: worst at position {worst}, expected {wanted.position} ({wanted.source})")
     for force in force_ranges_of(cases):

@@ -226,20 +226,16 @@ def case_notices(case: CaseResult) -> tuple[Notice, ...]:
 
 def notices_of(results: Results) -> tuple[Notice, ...]:
     """Notices of the run, then those of each case: of its figures, its status, its verification, its solver."""
-    fallen = {_series(case) for case in results.cases if result_of(case) is not None} - {None}
+    fallen = {case.load_case.question.series for case in results.cases if result_of(case) is not None} - {None}
     notices = list(results.notices)
     for case in results.cases:
-        answer = case.load_case.question.unbounded_answers or _series(case) in fallen
+        answer = case.load_case.question.unbounded_answers or case.load_case.question.series in fallen
         harmless = case.status is Status.UNBOUNDED and answer
         own = case_notices(case)
         doubtful = any(notice.identifier == "law-residual" for notice in own)
         notices += (*own, *found_notices(case, harmless=harmless))
         notices += magnitude_notices(results.model, results.contacts, case, doubtful=doubtful)
     return tuple(notices)
-
-
-def _series(case: CaseResult) -> str | None:
-    return case.load_case.question.series
 
 
 def distinct(names: Iterable[str]) -> list[str]:

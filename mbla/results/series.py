@@ -34,12 +34,7 @@ class Series:
     @property
     def complete(self) -> bool:
         """Whether every position of the path was solved, none left out by name."""
-        return len(self.cases) == position_of(self.cases[0]).count
-
-
-def position_of(case: CaseResult) -> TravelPosition:
-    """Where the load stands in a case of a series."""
-    return case.load_case.question.place
+        return len(self.cases) == self.cases[0].load_case.question.place.count
 
 
 def factor_of(case: CaseResult) -> float:
@@ -92,8 +87,8 @@ def series_of(cases: Sequence[CaseResult]) -> tuple[Series, ...]:
     """All series among the cases, in the order of the deck."""
     members: dict[str, list[CaseResult]] = {}
     for case in cases:
-        if position_of(case).count:
-            members.setdefault(position_of(case).series, []).append(case)
+        if case.load_case.question.place.count:
+            members.setdefault(case.load_case.question.place.series, []).append(case)
     return tuple(Series(name, tuple(own), _worst(own)) for name, own in members.items())
 
 

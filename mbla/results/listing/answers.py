@@ -15,7 +15,7 @@ from mbla.results.listing.blocks import GAP, Fact, ListingSection, Paragraph, ap
 from mbla.results.listing.text import counted, number, vector
 from mbla.results.outcome import answer_bounds, answer_of, associative_of, least_of, result_of
 from mbla.results.results import CaseResult
-from mbla.results.series import Series, factor_of, position_of
+from mbla.results.series import Series, factor_of
 from mbla.solution.solution import Status
 
 
@@ -154,7 +154,7 @@ def worst_words(model: Model, series: Series) -> str:
         names = ", ".join(case.load_case.name for case in unknown[:MOST_NAMED])
         names += " and others" if len(unknown) > MOST_NAMED else ""
         return f"{series.name}: the worst position is not known, for there is no load factor at {names}"
-    position = position_of(series.worst)
+    position = series.worst.load_case.question.place
     where = f"position {position.number} of {position.count}, {standing_words(model, position)}"
     return f"{series.name}: worst{among} at {where}: load factor {number(factor_of(series.worst))}"
 
@@ -185,7 +185,7 @@ def _acting(position: TravelPosition) -> str:
 
 
 def _row(model: Model, series: Series, case: CaseResult) -> list[str]:
-    position = position_of(case)
+    position = case.load_case.question.place
     mark = "  (worst)" if case is series.worst else ""
     return [
         case.load_case.name + mark,

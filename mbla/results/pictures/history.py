@@ -15,7 +15,7 @@ from mbla.results.pictures.diagrams import dress, open_diagrams
 from mbla.results.pictures.options import PictureOptions
 from mbla.results.pictures.page import BLUE, GHOST, GREEN, INK, ORANGE, PURPLE, VERMILION, WARNING, Page
 from mbla.results.pictures.scene import PictureScene
-from mbla.results.series import Series, factor_of, position_of
+from mbla.results.series import Series, factor_of
 from mbla.solution.solution import Status
 from mbla.solution.thresholds import SOLVED_RESIDUAL
 
@@ -164,18 +164,18 @@ def draw_series(path: Path, scene: PictureScene, series: Series, options: Pictur
 
     Positions without a result are crosses at the foot, those that no load brings down arrows at the top.
     """
-    place = np.array([position_of(case).distance for case in series.cases])
+    place = np.array([case.load_case.question.place.distance for case in series.cases])
     values = np.array([factor_of(case) for case in series.cases])
     sure = np.array([case.status is Status.SOLVED for case in series.cases])
     words = [scene.words_of("model")[0], f"load case {series.name}: load factor over {len(place)} positions"]
     if series.worst is not None:
-        at, worst = position_of(series.worst), factor_of(series.worst)
+        at, worst = series.worst.load_case.question.place, factor_of(series.worst)
         words.append(f"worst at position {at.number}, {standing_words(scene.model, at)}: {number(worst)}")
     missing = int(np.isnan(values).sum())
     mark = f"NOT VERIFIED: {missing} of {len(place)} positions without a result" if missing else ""
     with open_diagrams(path, options, words, mark) as sheet:
         page, axes = sheet.page, sheet.frames(1)[0, 0]
-        what = "position" if len(position_of(series.cases[0]).points) == 1 else "first axle"
+        what = "position" if len(series.cases[0].load_case.question.place.points) == 1 else "first axle"
         dress(page, axes, f"{what} along the path [{scene.model.units.length}]", "load factor")
         _draw_positions(page, axes, place, values, sure)
         if series.worst is not None:

@@ -9,7 +9,7 @@ from mbla.model.model import Model
 from mbla.questions.travel_position import TravelPosition
 from mbla.results.quantities.group import Field, Group
 from mbla.results.results import CaseResult, Results
-from mbla.results.series import Series, factor_of, position_of, series_of
+from mbla.results.series import Series, factor_of, series_of
 
 
 @dataclass(frozen=True)
@@ -23,7 +23,7 @@ class Position:
     @property
     def travel(self) -> TravelPosition:
         """Where the load is."""
-        return position_of(self.case)
+        return self.case.load_case.question.place
 
 
 def positions(results: Results) -> Iterator[Position]:

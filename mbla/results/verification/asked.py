@@ -17,7 +17,7 @@ from mbla.deck import Deck
 from mbla.model import Model
 from mbla.results.outcome import WITH_VALUE, least_factor, ratio_of
 from mbla.results.results import CaseResult, Results
-from mbla.results.series import position_of, series_of, worst_known
+from mbla.results.series import series_of, worst_known
 from mbla.results.verification.pushover import pushover_claims, pushover_differences
 from mbla.solution.flow.path_record import Stop
 from mbla.solution.flow.settings import RATIOS, ratios_beside, second_ratio
@@ -62,7 +62,7 @@ def differences_of_positions(deck: Deck, results: Results) -> Iterator[str]:
         asked = deck.content.load_cases[series.name].pushover
         if asked is None:
             continue
-        may_be = [case for case in series.cases if asked.position in (None, position_of(case).number)]
+        may_be = [case for case in series.cases if asked.position in (None, case.load_case.question.place.number)]
         wanted = [worst_known(may_be).load_case.name] if may_be else []
         pushed = [case.load_case.name for case in series.cases if case.load_case.pushover is not None]
         if pushed != wanted:

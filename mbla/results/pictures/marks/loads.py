@@ -23,7 +23,7 @@ from mbla.results.pictures.marks.marks import Mark, arrows, dots, rings, segment
 from mbla.results.pictures.page import CASES, DEAD_LOAD, LIVE_LOAD
 from mbla.results.pictures.scene import PictureScene
 from mbla.results.results import CaseResult
-from mbla.results.series import position_of, without_vehicle, worst_known
+from mbla.results.series import without_vehicle, worst_known
 
 SAME = 1e-6
 """relative difference up to which blocks have the same acceleration; results are stored in full, so it is rounding"""
@@ -52,7 +52,7 @@ def shown_loads(scene: PictureScene, kind: str) -> list[Mark]:
     for row, (name, together) in enumerate(cases.items()):
         label = f"live load {name}" if len(cases) > 1 else "live load"
         label, colour = label if row < MOST_CASES else "", CASES[row % len(CASES)]
-        if len(together) > 1 and position_of(together[0]).count:
+        if len(together) > 1 and together[0].load_case.question.place.count:
             found += path_marks(together, f"{label}, {len(together)} positions" if label else "", colour)
             together = [worst_known(together)]
         for each in together:
@@ -62,7 +62,7 @@ def shown_loads(scene: PictureScene, kind: str) -> list[Mark]:
 
 def path_marks(positions: Sequence[CaseResult], label: str, colour: str) -> list[Mark]:
     """The way of a travelling load, from where it stands first, or its first axle, with a dot at each position."""
-    points = np.array([position_of(each).point for each in positions])
+    points = np.array([each.load_case.question.place.point for each in positions])
     bodies, texts = np.full((len(points), 2), -1), [label] * len(points)
     line = segments(label, colour, np.stack([points[:-1], points[1:]], axis=1), bodies[1:], texts[1:])
     return [replace(line, widths=np.full(len(line.pairs), 0.3)), dots(label, colour, points, bodies, texts)]
