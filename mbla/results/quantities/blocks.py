@@ -79,10 +79,7 @@ def groups(blocks: Blocks) -> IntArray:
     return numbers_of(blocks.groups)
 
 
-BLOCKS.fields(
-    Blocks,
-    group_indices=Field("position of the block in its group", "block", files="table"),
-)
+BLOCKS.fields(Blocks, group_indices=Field("position of the block in its group", "block", files="table"))
 
 
 @LABELS.quantity(dims="member")
@@ -103,10 +100,7 @@ def position_names(_: BlockLabels) -> list[str]:
     return list(POSITIONS)
 
 
-LABELS.fields(
-    BlockLabels,
-    positions=Field("course, voussoir and so on, from 0; -1: none", "block position"),
-)
+LABELS.fields(BlockLabels, positions=Field("course, voussoir and so on, from 0; -1: none", "block position"))
 
 
 def _declare_position(name: str) -> None:

@@ -18,25 +18,23 @@ CASES = Group[CaseResult](lambda scene: scene.solved, file="cases/*", table="cas
 CLAIMED = Group[CaseResult](lambda scene: scene.solved, file="cases/*")
 SHOWN = Group[CaseResult](lambda scene: scene.solved, table="cases")
 SCENE = Group[Scene](lambda scene: scene, table="cases")
-SOLUTION = Group[Solution](lambda scene: scene.solved.solution, file="cases/*", table="cases", part="solution")
-CHECKS = Group[Checks](lambda scene: scene.solved.checks, file="cases/*", table="cases", part="solution")
-
-CASES.fields(
-    CaseResult,
-    status=Field("status of the case after verification", rule="open", files="table json"),
+SOLUTION = Group[Solution](
+    lambda scene: scene.solved.solution, file="cases/*", files="table json", table="cases", part="solution"
+)
+CHECKS = Group[Checks](
+    lambda scene: scene.solved.checks, file="cases/*", files="table json", table="cases", part="solution"
 )
 
+CASES.fields(CaseResult, status=Field("status of the case after verification", rule="open", files="table json"))
 
-@SOLUTION.quantity(unverified="claimed")
+
+@SOLUTION.quantity("", unverified="claimed")
 def claimed_status(solution: Solution) -> str:
     """Status that the solver stage claimed, which figures can lower and not raise."""
     return solution.status.value
 
 
-SOLUTION.fields(
-    Solution,
-    reason=Field("why it is not plainly solved, in words", rule="open", unverified="words", files="table json"),
-)
+SOLUTION.fields(Solution, reason=Field("why it is not plainly solved, in words", rule="open", unverified="words"))
 
 
 @SHOWN.quantity("table json", dims="sentence")
@@ -47,15 +45,10 @@ def remarks(case: CaseResult) -> Sequence[str]:
 
 SOLUTION.fields(
     Solution,
-    flow_rule=Field("flow rule of load_factor, contact_forces and mechanism", rule="open", files="table json"),
-    scheme=Field(
-        "how a flow without normality was solved; empty: associative",
-        rule="open",
-        unverified="course",
-        files="table json",
-    ),
-    contact_model=Field("concave, or convex: interface resultants", rule="open", files="table json"),
-    stress_blocks=Field("1 where interfaces crush as fields of stress do"),
+    flow_rule=Field("flow rule of load_factor, contact_forces and mechanism", rule="open"),
+    scheme=Field("how a flow without normality was solved; empty: associative", rule="open", unverified="course"),
+    contact_model=Field("concave, or convex: interface resultants", rule="open"),
+    stress_blocks=Field("1 where interfaces crush as fields of stress do", files=""),
 )
 
 
@@ -77,11 +70,13 @@ CHECKED = CHECKS.fields(
     least_load_factor=Field(
         "least load factor of the states of rigid joints that a search found, nan: none ran, or none is verified",
         rule="open",
+        files="",
     ),
     torsion_load_factor=Field(
         "greatest load factor on the path of elastic joints whose interfaces twist under uniform "
         "pressure, beside that of contact points; nan: none was followed, or its state is not verified",
         rule="open",
+        files="",
     ),
 )
 
@@ -105,7 +100,6 @@ SOLUTION.fields(
         "borne at least; empty without one",
         rule="open",
         unverified="course",
-        files="table json",
     ),
 )
 
@@ -124,29 +118,19 @@ def best_iterate_load_factor(scene: Scene) -> float | None:
 
 CHECKS.fields(
     Checks,
-    static_bound=Field("lower bound of the associative load factor", rule="open", files="table json"),
-    kinematic_bound=Field("upper bound of the associative load factor", rule="open", files="table json"),
-    gap=Field("relative distance of the two bounds", rule="open", files="table json"),
+    static_bound=Field("lower bound of the associative load factor", rule="open"),
+    kinematic_bound=Field("upper bound of the associative load factor", rule="open"),
+    gap=Field("relative distance of the two bounds", rule="open"),
 )
 SOLUTION.fields(
     Solution,
     path_end=Field(
-        "why the path ended: falls, flat, far; or how it was lost; empty without one",
-        rule="open",
-        unverified="course",
-        files="table json",
+        "why the path ended: falls, flat, far; or how it was lost; empty without one", rule="open", unverified="course"
     ),
-    path_gain=Field(
-        "share of the load factor that was gained over its last half",
-        rule="open",
-        unverified="course",
-        files="table json",
-    ),
-    path_last=Field("load factor at its end", rule="open", unverified="course", files="table json"),
+    path_gain=Field("share of the load factor that was gained over its last half", rule="open", unverified="course"),
+    path_last=Field("load factor at its end", rule="open", unverified="course"),
     tolerance_requested=Field(
-        "gap that the deck asks for, of a case that is approximate for no other reason",
-        part="tolerance_requested",
-        files="table json",
+        "gap that the deck asks for, of a case that is approximate for no other reason", part="tolerance_requested"
     ),
 )
 
@@ -191,11 +175,7 @@ def _declare_ratio(state: str, words: str) -> None:
 
 for _state, _words in zip(
     LIMIT_STATES,
-    (
-        "the same at the limit state of damage",
-        "the same at that of life safety",
-        "the same at that near collapse",
-    ),
+    ("the same at the limit state of damage", "the same at that of life safety", "the same at that near collapse"),
     strict=True,
 ):
     _declare_ratio(_state, _words)
@@ -225,10 +205,7 @@ def reaction(case: CaseResult) -> float | None:
     return question.value(mechanics.load_factor) if question.group == "reaction" and mechanics is not None else None
 
 
-CHECKS.fields(
-    Checks,
-    verified=Field("1 where everything is within tolerance", files="table json"),
-)
+CHECKS.fields(Checks, verified=Field("1 where everything is within tolerance"))
 
 
 @SHOWN.quantity("table json", dims="sentence")
@@ -239,27 +216,17 @@ def failures(case: CaseResult) -> Sequence[str]:
 
 CHECKS.fields(
     Checks,
-    equilibrium_residual=Field("largest unbalanced force over mean block weight", rule="open", files="table json"),
-    yield_violation=Field(
-        "largest excess over the joint's strength over mean block weight", rule="open", files="table json"
-    ),
-    tension_violation=Field(
-        "largest tension beyond the tensile strength over mean block weight", rule="open", files="table json"
-    ),
-    penetration=Field("largest closing velocity over largest contact speed", rule="open", files="table json"),
-    complementarity_residual=Field(
-        "share of the power balance left unexplained under the flow rule", rule="open", files="table json"
-    ),
-    slip_residual=Field(
-        "the part of it that sliding against friction leaves unexplained", rule="open", files="table json"
-    ),
+    equilibrium_residual=Field("largest unbalanced force over mean block weight", rule="open"),
+    yield_violation=Field("largest excess over the joint's strength over mean block weight", rule="open"),
+    tension_violation=Field("largest tension beyond the tensile strength over mean block weight", rule="open"),
+    penetration=Field("largest closing velocity over largest contact speed", rule="open"),
+    complementarity_residual=Field("share of the power balance left unexplained under the flow rule", rule="open"),
+    slip_residual=Field("the part of it that sliding against friction leaves unexplained", rule="open"),
     elastic_residual=Field(
-        "path of elastic joints: largest force off their law, over the largest; nan for rigid joints",
-        rule="open",
-        files="table json",
+        "path of elastic joints: largest force off their law, over the largest; nan for rigid joints", rule="open"
     ),
-    live_power=Field("live load times mechanism, should be 1", rule="open", files="table json"),
-    power_balance=Field("dissipation minus external power over the larger of the two", rule="open", files="table json"),
+    live_power=Field("live load times mechanism, should be 1", rule="open"),
+    power_balance=Field("dissipation minus external power over the larger of the two", rule="open"),
 )
 
 

@@ -13,6 +13,7 @@ STANDING = Group[StandingResult](lambda scene: scene.solved.solution.standing, f
 SENSITIVITY = Group[tuple[Slope, ...]](
     lambda scene: scene.solved.solution.further.sensitivity or None,
     file="cases/*/sensitivity",
+    files="table",
     table="sensitivity",
     rows="slope_row",
     part="sensitivity",
@@ -59,50 +60,30 @@ STANDING.fields(
 SENSITIVITY.fields(
     Slope,
     parameter=Field(
-        "key path of a parameter in the deck; dead load or live load: a factor on it; tie and a name: its capacity",
-        files="table",
+        "key path of a parameter in the deck; dead load or live load: a factor on it; tie and a name: its capacity"
     ),
-    value=Field("its value, in the unit of the row", files="table"),
-    unit=Field("its unit; empty for plain numbers", files="table"),
-    slope=Field("derivative of the associative load factor by it; nan: not known", rule="open", files="table"),
-    elasticity=Field("relative change of that load factor over that of the parameter", rule="open", files="table"),
+    value=Field("its value, in the unit of the row"),
+    unit=Field("its unit; empty for plain numbers"),
+    slope=Field("derivative of the associative load factor by it; nan: not known", rule="open"),
+    elasticity=Field("relative change of that load factor over that of the parameter", rule="open"),
     side=Field(
         "side of the value on which the slope holds: both, above, below; kink: above, the slope below in the remark",
-        files="table",
     ),
-    remark=Field("what else is to be said of it", files="table"),
+    remark=Field("what else is to be said of it"),
 )
 GEOMETRIC_SAFETY.fields(
     GeometricSafety,
-    sizes=Field(
-        "size of all joints over their own at which the dead load stands, and at which it falls",
-        "safety_end",
-        part="geometric_safety",
-    ),
+    sizes=Field("size of all joints over their own at which the dead load stands, and at which it falls", "safety_end"),
     pressed=Field(
-        "pressure on all joints in the problem that shows it, over the dead load per area of joints",
-        "safety_end",
-        part="geometric_safety",
+        "pressure on all joints in the problem that shows it, over the dead load per area of joints", "safety_end"
     ),
-    load_factors=Field(
-        "load factor of that problem: it stands where this is not below the pressure",
-        "safety_end",
-        part="geometric_safety",
-    ),
+    load_factors=Field("load factor of that problem: it stands where this is not below the pressure", "safety_end"),
     forces=Field(
-        "contact forces of that problem at the points of the shrunk joints",
-        "safety_end point direction",
-        unit="force",
-        part="geometric_safety",
+        "contact forces of that problem at the points of the shrunk joints", "safety_end point direction", unit="force"
     ),
-    mechanisms=Field(
-        "mechanisms of that problem", "safety_end block component", unit="velocities", part="geometric_safety"
-    ),
-    solves=Field("programs that were solved for it", part="geometric_safety", unverified="course"),
-    verified=Field(
-        "1 where forces and mechanisms show that it stands at the first size and falls at the second",
-        part="geometric_safety",
-    ),
+    mechanisms=Field("mechanisms of that problem", "safety_end block component", unit="velocities"),
+    solves=Field("programs that were solved for it", unverified="course"),
+    verified=Field("1 where forces and mechanisms show that it stands at the first size and falls at the second"),
 )
 
 

@@ -1,4 +1,4 @@
-"""Groups of quantities, and how a quantity is declared: a function, or the field of a dataclass.
+"""Groups of quantities, and how a quantity is declared: a function, or a field or property of a dataclass.
 
 A group is what a renderer takes together: a group of the result file, a table, an object of the JSON record. It says
 what its quantities belong to, the owner, and each is a function of that: its name is the name, its docstring what it
@@ -8,8 +8,8 @@ is, and what it returns says its type::
     def global_forces(scene: Scene) -> FloatArray | None:
         "Contact force on body b in the axes of the deck."
 
-Where the owner is a dataclass whose fields are the quantities, these are named with what they are; what is no field of
-it is refused when the module is imported.
+Where the owner is a dataclass whose fields or properties are the quantities, these are named with what they are; what
+is none of it is refused when the module is imported, and so is a type that files and tables cannot hold.
 """
 
 from __future__ import annotations
@@ -48,9 +48,10 @@ class Field:
 
     dims      : without that of the rows where the owner is a list
     rule      : ``open``, ``index of DIMENSION`` or ``start of DIMENSION``
-    part, unverified : None: as the group says; ``{}`` in a part stands for that of the group
+    part, unverified, files : None: as the group says; ``{}`` in a part stands for that of the group
     attribute : the field, where the quantity has another name
     by        : what is told of its value, where that is not all of it: ``count``, ``total``
+    items, inside, missing : in the JSON record, see :class:`Quantity`
     """
 
     words: str
@@ -60,7 +61,7 @@ class Field:
     part: str | None = None
     unverified: str | None = None
     proved: tuple[str, ...] = ()
-    files: str = ""
+    files: str | None = None
     attribute: str = ""
     by: Callable[[Any], Any] | None = None
     names: Callable[[Any], Sequence[str]] | None = None
@@ -78,7 +79,7 @@ class Group(Generic[Owner]):
     table : whose columns they are
     rows  : dimension of the rows, where the owner is a list and each quantity one of an item; None where it is no list
     asked : they belong to a load case whether it is solved or not
-    part, unverified : of quantities that do not say it themselves
+    part, unverified, files : of quantities that do not say it themselves
     """
 
     def __init__(
@@ -92,10 +93,11 @@ class Group(Generic[Owner]):
         asked: bool = False,
         part: str = "",
         unverified: str = "",
+        files: str = "",
     ) -> None:
         self.owner, self.claim = owner, claim or owner
         self.file, self.table, self.rows, self.asked = file, table, rows, asked
-        self.part, self.unverified = part, unverified
+        self.part, self.unverified, self.files = part, unverified, files
         self.row: Callable[[Any], Any] | None = None
         self.quantities: list[Quantity] = []
 
@@ -109,7 +111,7 @@ class Group(Generic[Owner]):
         return other
 
     def quantity(
-        self, files: str = "", *, like: Quantity | None = None, name: str = "", **said: Any
+        self, files: str | None = None, *, like: Quantity | None = None, name: str = "", **said: Any
     ) -> Callable[[Function], Function]:
         """Declare the function that follows; ``like``: it is what another one is; ``said``: see :class:`Field`.
 
@@ -117,7 +119,7 @@ class Group(Generic[Owner]):
         """
 
         def declare(function: Function) -> Function:
-            what = {"words": words_of(function), "files": files}
+            what: dict[str, Any] = {"words": words_of(function), "files": files}
             if like is not None:
                 what |= {"words": like.words, "unit": like.unit, "dims": " ".join(like.dims)}
             self._add(name or function.__name__, function.__annotations__["return"], Field(**what | said), function)
@@ -142,6 +144,7 @@ class Group(Generic[Owner]):
         one = self.rows is None
         of = of if self.row is None else _of_one(self.row, of)
         unverified = self.unverified if said.unverified is None else said.unverified
+        files = self.files if said.files is None else said.files
         quantity = Quantity(
             name,
             KINDS.get(annotation.removesuffix(" | None"), "object"),
@@ -156,8 +159,8 @@ class Group(Generic[Owner]):
             part=self.part if said.part is None else said.part.format(self.part),
             unverified=UNVERIFIED[unverified] if unverified else "",
             proved=said.proved,
-            table=self.table if said.files else "",
-            files=tuple(said.files.split()),
+            table=self.table if files else "",
+            files=tuple(files.split()),
             names=said.names,
             of=_of_one(self.owner, of) if one else of,
             stored=_of_one(self.claim, of) if one else _of_each(self.claim, of),

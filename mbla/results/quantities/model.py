@@ -20,10 +20,7 @@ GUIDES = Group[Guides](
 )
 FILL = Group[CarriedFill](lambda scene: scene.model.fill, file="model", part="fill")
 
-MODEL.fields(
-    Model,
-    title=Field("title of the deck"),
-)
+MODEL.fields(Model, title=Field("title of the deck"))
 
 
 @MODEL.quantity(dims="unit")

@@ -11,8 +11,8 @@ from mbla.results.quantities.points import FIGURES_WORDS, figure_names
 from mbla.results.record.scene import FIGURES, Scene
 
 SCENE = Group[Scene](lambda scene: scene, table="cases")
-_MOVING = Group[Scene](lambda scene: None if scene.collapse is None else scene, table="cases")
-_COLLAPSE = Group[Collapse](lambda scene: scene.collapse, table="cases")
+_MOVING = Group[Scene](lambda scene: None if scene.collapse is None else scene, files="table", table="cases")
+_COLLAPSE = Group[Collapse](lambda scene: scene.collapse, files="table", table="cases")
 _INTERFACES = Group[InterfaceMotion](lambda scene: scene.interfaces, table="cases")
 
 
@@ -22,19 +22,19 @@ def figures(scene: Scene) -> int:
     return FIGURES.index(scene.figures)
 
 
-@_MOVING.quantity("table")
+@_MOVING.quantity()
 def moving_weight_share(scene: Scene) -> float:
     """Share of the weight of the free blocks that moves."""
     return moving_share(scene.model, scene.parts)
 
 
-@_MOVING.quantity("table")
+@_MOVING.quantity()
 def moving_blocks(scene: Scene) -> int:
     """Free blocks that move."""
     return free_blocks_that_move(scene.model, scene.parts)
 
 
-_COLLAPSE.fields(Collapse, moving_parts=Field("rigid parts that move", attribute="motions", by=count, files="table"))
+_COLLAPSE.fields(Collapse, moving_parts=Field("rigid parts that move", attribute="motions", by=count))
 
 
 def _declare_mode(mode: InterfaceMode) -> None:

@@ -17,7 +17,7 @@ _OF_MODEL = Group[tuple[Notice, ...]](lambda scene: scene.model.notices, file="m
 _OF_CONTACTS = Group[tuple[Notice, ...]](
     lambda scene: scene.contacts.report.notices, file="contacts/notices", rows="notice"
 )
-REMARKS = Group[tuple[Notice, ...]](notices_of, table="notices", rows="")
+REMARKS = Group[tuple[Notice, ...]](notices_of, files="table", table="notices", rows="")
 """those of the run and those of its load cases"""
 
 DECK.fields(
@@ -71,10 +71,10 @@ _declare_notices(_OF_CONTACTS, "from finding the contacts")
 _declare_notices(NOTICES, "all remarks of the run")
 REMARKS.fields(
     Notice,
-    severity=Field("notice or warning", files="table"),
-    identifier=Field("stable identifier", files="table"),
-    message=Field("in words", files="table"),
-    case=Field("load case that it is about; empty: the entire run", files="table"),
+    severity=Field("notice or warning"),
+    identifier=Field("stable identifier"),
+    message=Field("in words"),
+    case=Field("load case that it is about; empty: the entire run"),
 )
 
 

@@ -32,16 +32,16 @@ def positions(results: Results) -> Iterator[Position]:
         yield from (Position(results.model, series, case) for case in series.cases)
 
 
-POSITIONS = Group[Iterator[Position]](positions, table="series", rows="")
+POSITIONS = Group[Iterator[Position]](positions, files="table", table="series", rows="")
 
 
-@POSITIONS.quantity("table")
+@POSITIONS.quantity()
 def series(position: Position) -> str:
     """Load case of the deck."""
     return position.of.name
 
 
-@POSITIONS.quantity("table")
+@POSITIONS.quantity()
 def case(position: Position) -> str:
     """Load case."""
     return position.case.load_case.name
@@ -49,36 +49,36 @@ def case(position: Position) -> str:
 
 POSITIONS.of(lambda position: position.travel).fields(
     TravelPosition,
-    position=Field("number of the position, from 1", files="table", attribute="number"),
-    count=Field("positions on the path", files="table"),
-    point=Field("where the first axle stands, or the only force", "axis", unit="length", files="table"),
-    distance=Field("its distance along the path, of which it may be off", unit="length", files="table"),
+    position=Field("number of the position, from 1", attribute="number"),
+    count=Field("positions on the path"),
+    point=Field("where the first axle stands, or the only force", "axis", unit="length"),
+    distance=Field("its distance along the path, of which it may be off", unit="length"),
 )
 
 
-@POSITIONS.quantity("table", rule="open")
+@POSITIONS.quantity(rule="open")
 def block(position: Position) -> str:
     """The block that carries it; none: it is off the path and does not act."""
     carrier = int(position.travel.blocks[0])
     return position.model.blocks.name(carrier) if carrier >= 0 else ""
 
 
-@POSITIONS.quantity("table")
+@POSITIONS.quantity()
 def axles(position: Position) -> str:
     """Distances along the path of all axles, the first one first."""
     return " ".join(f"{place:.9g}" for place in position.travel.distances.tolist())
 
 
-POSITIONS.of(lambda position: position.case).fields(CaseResult, status=Field("status", files="table"))
+POSITIONS.of(lambda position: position.case).fields(CaseResult, status=Field("status"))
 
 
-@POSITIONS.quantity("table", rule="open")
+@POSITIONS.quantity(rule="open")
 def load_factor(position: Position) -> float:
     """Load factor; inf: no multiple brings anything down; none: no result."""
     return factor_of(position.case)
 
 
-@POSITIONS.quantity("table")
+@POSITIONS.quantity()
 def worst(position: Position) -> bool:
     """The least load factor; none where some position has no result."""
     return position.case is position.of.worst

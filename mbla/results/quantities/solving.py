@@ -4,14 +4,7 @@ from __future__ import annotations
 
 from mbla.program.reductions import ProgramSize, ReductionStep
 from mbla.results.quantities.group import Field, Group, count
-from mbla.solution.solution import (
-    IterationRecord,
-    ModelSize,
-    PathByStiffness,
-    PathPoint,
-    ProgramRecord,
-    Solution,
-)
+from mbla.solution.solution import IterationRecord, ModelSize, PathByStiffness, PathPoint, ProgramRecord, Solution
 
 SOLUTION = Group[Solution](lambda scene: scene.solved.solution, file="cases/*", table="cases", part="solution")
 SHOWN = Group[Solution](lambda scene: scene.solved.solution, table="cases")
@@ -26,6 +19,7 @@ REDUCTIONS = Group[tuple[ReductionStep, ...]](
 PATH = Group[tuple[PathPoint, ...]](
     lambda scene: scene.solved.solution.path,
     file="cases/*/path",
+    files="table",
     table="path",
     rows="path_row",
     part="solution",
@@ -41,6 +35,7 @@ PATH_BY_STIFFNESS = Group[tuple[PathByStiffness, ...]](
 PROGRAMS = Group[tuple[ProgramRecord, ...]](
     lambda scene: scene.solved.solution.programs,
     file="cases/*/programs",
+    files="table",
     table="programs",
     rows="program_row",
     part="solution",
@@ -49,6 +44,7 @@ PROGRAMS = Group[tuple[ProgramRecord, ...]](
 ITERATIONS = Group[tuple[IterationRecord, ...]](
     lambda scene: scene.solved.solution.iterations,
     file="cases/*/iterations",
+    files="table",
     table="iterations",
     rows="iteration_row",
     part="solution",
@@ -98,14 +94,12 @@ _declare_sizes("after")
 
 PATH.fields(
     PathPoint,
-    step=Field("step of the path of elastic joints", files="table"),
-    displacement=Field(
-        "along the live load, over the elastic one of the structure at its associative load factor", files="table"
-    ),
-    load_factor=Field("load factor there", rule="open", files="table"),
-    open=Field("contact points open", files="table"),
-    slide=Field("others at their friction", files="table"),
-    balanced=Field("1 where forces and loads are in balance", files="table"),
+    step=Field("step of the path of elastic joints"),
+    displacement=Field("along the live load, over the elastic one of the structure at its associative load factor"),
+    load_factor=Field("load factor there", rule="open"),
+    open=Field("contact points open"),
+    slide=Field("others at their friction"),
+    balanced=Field("1 where forces and loads are in balance"),
 )
 PATH_BY_STIFFNESS.fields(
     PathByStiffness,
@@ -114,26 +108,26 @@ PATH_BY_STIFFNESS.fields(
 )
 PROGRAMS.fields(
     ProgramRecord,
-    program=Field("number of the program, from 1", files="table"),
-    kind=Field("what it is for", files="table"),
-    status=Field("its status", files="table"),
-    load_factor=Field("its load factor", rule="open", files="table"),
-    change=Field("relative change of the load factor", rule="open", files="table"),
-    iterations=Field("its iterations", files="table"),
-    seconds=Field("its time", unit="time", rule="open", files="table"),
-    solver=Field("mbla or clarabel; empty: steps of the joint law", files="table"),
-    factorization=Field("library that factorised its linear systems; empty: none", files="table"),
+    program=Field("number of the program, from 1"),
+    kind=Field("what it is for"),
+    status=Field("its status"),
+    load_factor=Field("its load factor", rule="open"),
+    change=Field("relative change of the load factor", rule="open"),
+    iterations=Field("its iterations"),
+    seconds=Field("its time", unit="time", rule="open"),
+    solver=Field("mbla or clarabel; empty: steps of the joint law"),
+    factorization=Field("library that factorised its linear systems; empty: none"),
 )
 ITERATIONS.fields(
     IterationRecord,
-    program=Field("number of the program", files="table"),
-    iteration=Field("iteration within it", files="table"),
-    load_factor=Field("load factor at this iteration", rule="open", files="table"),
-    gap=Field("relative gap of the program", rule="open", files="table"),
-    primal_residual=Field("primal residual of the program", rule="open", files="table"),
-    dual_residual=Field("dual residual of the program", rule="open", files="table"),
-    step=Field("length of the step taken", rule="open", files="table"),
-    seconds=Field("time since the program began", unit="time", rule="open", files="table"),
+    program=Field("number of the program"),
+    iteration=Field("iteration within it"),
+    load_factor=Field("load factor at this iteration", rule="open"),
+    gap=Field("relative gap of the program", rule="open"),
+    primal_residual=Field("primal residual of the program", rule="open"),
+    dual_residual=Field("dual residual of the program", rule="open"),
+    step=Field("length of the step taken", rule="open"),
+    seconds=Field("time since the program began", unit="time", rule="open"),
 )
 
 

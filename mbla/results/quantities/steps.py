@@ -26,7 +26,9 @@ def _points(scene: Scene) -> RowPoints | None:
 
 
 PUSHOVER = Group[Pushover](_pushed, file="cases/*", part="curve")
-CURVE = Group[tuple[CurveRow, ...]](_curve, file="cases/*/curve", table="curve", rows="curve_row", part="curve")
+CURVE = Group[tuple[CurveRow, ...]](
+    _curve, file="cases/*/curve", files="table", table="curve", rows="curve_row", part="curve"
+)
 ROWS = Group[PushedRows](lambda scene: scene.solved.solution.further.pushover.rows, file="cases/*/pushed", part="curve")
 POINTS = Group[RowPoints](_points, file="cases/*/pushed", part="curve")
 
@@ -45,40 +47,27 @@ PUSHOVER.fields(
 )
 CURVE.fields(
     CurveRow,
-    step=Field("row of the pushover, 0: as it starts to move", files="table"),
-    displacement=Field("of the control point", unit="length", files="table"),
-    load_factor=Field(
-        "load factor that holds the structure there; of a tilting table its angle in radians", files="table"
-    ),
-    reaction=Field("of a settling support, nan without one", unit="force", rule="open", files="table"),
-    angle=Field(
-        "of a tilting table that holds the structure there, nan without one", unit="degree", rule="open", files="table"
-    ),
-    error=Field(
-        "of the load factor, by steps of twice the size; nan: not known", rule="open", unverified="curve", files="table"
-    ),
-    residual=Field(
-        "of the law of elastic joints and of balance, the greater; nan in row 0", rule="open", files="table"
-    ),
-    overlap=Field("greatest overlap of blocks", unit="length", files="table"),
-    live_work=Field("work of the live load since step 0", unit="moment", unverified="curve", files="table"),
-    friction=Field("energy dissipated in sliding since step 0", unit="moment", unverified="curve", files="table"),
-    tie_work=Field("energy dissipated by ties since step 0", unit="moment", unverified="curve", files="table"),
-    crushing=Field(
-        "energy dissipated since step 0 in joints that crush", unit="moment", unverified="curve", files="table"
-    ),
-    potential=Field(
-        "energy that the dead load has gained since step 0", unit="moment", unverified="curve", files="table"
-    ),
-    new_mechanism=Field("1 where it moves in another way than the step before", files="table"),
+    step=Field("row of the pushover, 0: as it starts to move"),
+    displacement=Field("of the control point", unit="length"),
+    load_factor=Field("load factor that holds the structure there; of a tilting table its angle in radians"),
+    reaction=Field("of a settling support, nan without one", unit="force", rule="open"),
+    angle=Field("of a tilting table that holds the structure there, nan without one", unit="degree", rule="open"),
+    error=Field("of the load factor, by steps of twice the size; nan: not known", rule="open", unverified="curve"),
+    residual=Field("of the law of elastic joints and of balance, the greater; nan in row 0", rule="open"),
+    overlap=Field("greatest overlap of blocks", unit="length"),
+    live_work=Field("work of the live load since step 0", unit="moment", unverified="curve"),
+    friction=Field("energy dissipated in sliding since step 0", unit="moment", unverified="curve"),
+    tie_work=Field("energy dissipated by ties since step 0", unit="moment", unverified="curve"),
+    crushing=Field("energy dissipated since step 0 in joints that crush", unit="moment", unverified="curve"),
+    potential=Field("energy that the dead load has gained since step 0", unit="moment", unverified="curve"),
+    new_mechanism=Field("1 where it moves in another way than the step before"),
     jumps=Field(
         "jumps since the step before: no equilibrium was nearby, and the structure moved in time to its next rest",
         unverified="curve",
-        files="table",
     ),
-    unsolved=Field("steps between it and the one before that were not found", unverified="curve", files="table"),
-    debris=Field("blocks that have fallen without the rest", unverified="curve", files="table"),
-    broken=Field("ties that have broken, or went with debris", files="table"),
+    unsolved=Field("steps between it and the one before that were not found", unverified="curve"),
+    debris=Field("blocks that have fallen without the rest", unverified="curve"),
+    broken=Field("ties that have broken, or went with debris"),
 )
 ROWS.fields(
     PushedRows,

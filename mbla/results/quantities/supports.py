@@ -27,22 +27,22 @@ def _rows(scene: Scene) -> Iterator[SupportRow]:
         yield from (SupportRow(scene, reaction) for reaction in found)
 
 
-REACTIONS = Group[Iterator[SupportRow]](_rows, table="reactions", rows="")
+REACTIONS = Group[Iterator[SupportRow]](_rows, files="table", table="reactions", rows="")
 
 
-@REACTIONS.quantity("table")
+@REACTIONS.quantity()
 def support(row: SupportRow) -> str:
     """Ground, block, group or guide."""
     return row.found.support
 
 
-@REACTIONS.quantity("table", words=FIGURES_WORDS)
+@REACTIONS.quantity(words=FIGURES_WORDS)
 def figures(row: SupportRow) -> str:
     """By name."""
     return row.scene.figures
 
 
-@REACTIONS.quantity("table", dims="component", unit="load")
+@REACTIONS.quantity(dims="component", unit="load")
 def reaction(row: SupportRow) -> FloatArray:
     """Force on the structure, and its moment about the origin."""
     return row.found.wrench

@@ -33,24 +33,22 @@ def _rows(scene: Scene) -> Sequence[TieRow]:
     return () if scene.mechanics is None else tie_rows(scene.model, scene.mechanics)
 
 
-TIES = Group[Sequence[TieRow]](_rows, table="ties", rows="")
+TIES = Group[Sequence[TieRow]](_rows, files="table", table="ties", rows="")
 TIES.fields(
     TieRow,
-    name=Field("name of the tie", files="table"),
-    form=Field("tie, strut, bar, ring, strip, fill or cohesion (of fill)", files="table"),
-    from_body=Field("block at its first point; outside: held outside of the model", files="table"),
-    to_body=Field("block at its last point", files="table"),
-    from_place=Field("its first point", "axis", unit="length", files="table"),
-    to_place=Field("its last point", "axis", unit="length", files="table"),
-    length=Field("length of its line", unit="length", files="table"),
-    least=Field("least force, tension positive", unit="force", files="table"),
-    greatest=Field("greatest force", rule="open", unit="force", files="table"),
-    prestress=Field("force when it was fitted", unit="force", files="table"),
-    force=Field(
-        "force; none: between what does not move, or without a result", rule="open", unit="force", files="table"
-    ),
-    use=Field("share of the greatest force in its sense", rule="open", files="table"),
-    rate=Field("elongation rate for unit power of the live load", rule="open", unit="velocity", files="table"),
-    power=Field("power that it takes for unit power of the live load", rule="open", files="table"),
-    state=Field("yields, slack, passive limit or active limit of fill, or empty", files="table"),
+    name=Field("name of the tie"),
+    form=Field("tie, strut, bar, ring, strip, fill or cohesion (of fill)"),
+    from_body=Field("block at its first point; outside: held outside of the model"),
+    to_body=Field("block at its last point"),
+    from_place=Field("its first point", "axis", unit="length"),
+    to_place=Field("its last point", "axis", unit="length"),
+    length=Field("length of its line", unit="length"),
+    least=Field("least force, tension positive", unit="force"),
+    greatest=Field("greatest force", rule="open", unit="force"),
+    prestress=Field("force when it was fitted", unit="force"),
+    force=Field("force; none: between what does not move, or without a result", rule="open", unit="force"),
+    use=Field("share of the greatest force in its sense", rule="open"),
+    rate=Field("elongation rate for unit power of the live load", rule="open", unit="velocity"),
+    power=Field("power that it takes for unit power of the live load", rule="open"),
+    state=Field("yields, slack, passive limit or active limit of fill, or empty"),
 )

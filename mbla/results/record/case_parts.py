@@ -28,8 +28,7 @@ STANDING = Object[Scene](
 )
 SOLVER = Object[Scene]()
 TIME = Object[Scene](
-    replace(COLUMN["seconds"], name="total", open=True),
-    replace(COLUMN["solver_seconds"], name="solver", open=True),
+    replace(COLUMN["seconds"], name="total", open=True), replace(COLUMN["solver_seconds"], name="solver", open=True)
 )
 REDUCTION, PROGRAM_SIZE = Object[ReductionStep](*solving.REDUCTIONS.quantities), Object[ProgramSize]()
 GEOMETRIC_SAFETY = Object[GeometricSafety](owner=further.GEOMETRIC_SAFETY.owner)

@@ -43,9 +43,7 @@ def name(scene: Scene) -> str:
 
 CASE.quantities += [quantity for quantity in CASE_COLUMNS if "json" in quantity.files]
 CASE.holds(
-    "reaction",
-    REACTION,
-    "settlement: reaction of the support; forces, or moments where it turns; objective: the force",
+    "reaction", REACTION, "settlement: reaction of the support; forces, or moments where it turns; objective: the force"
 )
 CASE.holds("best_iterate", BEST, "the best iterate where the case has no result")
 

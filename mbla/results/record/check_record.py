@@ -61,9 +61,7 @@ _REPORT.fields(
 NEEDS.fields(
     CaseNeeds,
     reductions=Field(
-        "what each reduction left out, in the order in which they are applied",
-        items=("a reduction",),
-        inside=REDUCTION,
+        "what each reduction left out, in the order in which they are applied", items=("a reduction",), inside=REDUCTION
     ),
 )
 NOT_OF_CHECKS = ("cases", "series", "objectives", "files", "complete", "not_done")

@@ -109,9 +109,7 @@ def dimension(results: Results) -> int:
 
 MODEL.quantities.append(STORED_BY_PATH["model/title"])
 _MODEL.fields(
-    Model,
-    blocks=Field("blocks", by=count),
-    free_blocks=Field("blocks that can move", attribute="free", by=count),
+    Model, blocks=Field("blocks", by=count), free_blocks=Field("blocks that can move", attribute="free", by=count)
 )
 
 

@@ -155,8 +155,7 @@ MECHANISM.holds("work", WORK, "powers, with unit power of the live load")
 
 
 FREEDOM.fields(
-    ForceFreedom,
-    ways=Field("degree of static indeterminacy of the contact forces; 0: unique", attribute="degree"),
+    ForceFreedom, ways=Field("degree of static indeterminacy of the contact forces; 0: unique", attribute="degree")
 )
 
 

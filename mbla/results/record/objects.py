@@ -118,7 +118,7 @@ def json_of(group: Group[Any], owner: Any) -> Mapping[str, Any]:
 def _value(quantity: Quantity, owner: Any) -> Any:
     found, inside = quantity.of(owner), quantity.inside
     if found is None or inside is None:
-        return None if quantity.open and found == "" else as_json(found)
+        return None if quantity.open and isinstance(found, str) and not found else as_json(found)
     if isinstance(found, dict):
         return {name: json_of(inside, own) for name, own in found.items()}
     return [json_of(inside, own) for own in found] if _is_list(quantity.annotation) else json_of(inside, found)

@@ -21,14 +21,7 @@ from mbla.results.record.scene import Scene, Values, as_text, scene_of
 from mbla.results.results import CaseResult, Results
 from mbla.results.series import chosen_cases
 from mbla.results.tables.formats import table_csv, table_parquet
-from mbla.results.tables.table import (
-    Table,
-    TableKind,
-    table_of,
-    values_in_scene,
-    values_of_case,
-    values_of_rows,
-)
+from mbla.results.tables.table import Table, TableKind, table_of, values_in_scene, values_of_case, values_of_rows
 
 CASE = Quantity("case", "text", "load case")
 
