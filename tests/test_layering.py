@@ -50,9 +50,10 @@ KINDS_BEFORE = {"mbla.model.blocks": set[str](), "mbla.model.loads": {"deck/sect
 GIVEN_TO_KINDS = {
     "deck/__init__.py",
     "deck/expressions.py",
-    "deck/kinds.py",
-    "deck/load_key.py",
-    "deck/positions.py",
+    "deck/kinds/__init__.py",
+    "deck/kinds/kinds.py",
+    "deck/kinds/load_key.py",
+    "deck/kinds/positions.py",
     "deck/quantities.py",
     "deck/section.py",
     "deck/sections/__init__.py",

@@ -18,10 +18,10 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.contacts.contacts import Contacts
-from mbla.model.guides import Guides, joined, slide
 from mbla.model.model import LoadCase, Model
 from mbla.model.settlement import with_reference
 from mbla.model.solids.blocks import Blocks, join_labels, labels_of
+from mbla.model.supports.guides import Guides, joined, slide
 from mbla.questions.force import Force, Objective
 
 

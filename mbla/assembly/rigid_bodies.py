@@ -27,9 +27,9 @@ import numpy as np
 from mbla.arrays import FloatArray, IntArray
 from mbla.assembly.load_cell import LoadCell
 from mbla.contacts.contacts import Contacts
-from mbla.model.guides import Guides
 from mbla.model.join import join_blocks
 from mbla.model.model import LoadCase, Model
+from mbla.model.supports.guides import Guides
 
 
 @dataclass(frozen=True)

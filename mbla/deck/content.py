@@ -13,7 +13,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Field
 
-from mbla.deck.load_key import NAMED
+from mbla.deck.kinds.load_key import NAMED
 from mbla.deck.quantities import Count, Integer, Line, Name, Number, ParameterName, PositiveNumber, Switch
 from mbla.deck.section import Section, given, rule
 from mbla.deck.sections.analysis import AnalysisSection

@@ -12,8 +12,8 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
-from mbla.deck.kinds import in_order
-from mbla.deck.load_key import NAMED, loads_that
+from mbla.deck.kinds.kinds import in_order
+from mbla.deck.kinds.load_key import NAMED, loads_that
 from mbla.deck.sections.blocks import ITEM_KINDS
 from mbla.deck.sections.loads import LOAD_KEYS
 from mbla.deck.sections.materials import BUILT_IN

@@ -20,8 +20,8 @@ from mbla.deck.units import Units
 from mbla.errors import DeckError, Fault, Finding, KeyPath, Message, Notice
 from mbla.model.block_sizes import unusual_sizes
 from mbla.model.drawn_joints import close_joints, joints_in_words
-from mbla.model.fill import CarriedFill, build_fill
-from mbla.model.fill_restraint import fill_struts
+from mbla.model.fill.fill import CarriedFill, build_fill
+from mbla.model.fill.restraint import fill_struts
 from mbla.model.interfaces import read_interfaces
 from mbla.model.items import CollectedItems, collect_items, defects_in_words, density_of
 from mbla.model.load_cases import build_load_cases
@@ -35,7 +35,7 @@ from mbla.model.solids.blocks import PointMasses, joined_masses
 from mbla.model.solids.build import BuiltBlocks, build_blocks
 from mbla.model.solids.defects import far_away
 from mbla.model.solids.facets import BentFaces
-from mbla.model.supports import Supports, build_supports, does_nothing
+from mbla.model.supports.supports import Supports, build_supports, does_nothing
 from mbla.model.symmetry.symmetry import with_images
 from mbla.model.ties.build import build_ties
 from mbla.model.ties.ties import Ties, joined_ties

@@ -22,7 +22,7 @@ from mbla.model.model import Ground, PrescribedInterfaces
 from mbla.model.selectors import BlockSelection
 from mbla.model.solids.blocks import Blocks
 from mbla.model.solids.plane import plane_axes
-from mbla.model.surfaces import lies_on
+from mbla.model.supports.surfaces import lies_on
 from mbla.model.tables import CsvTable, TableRefused, read_table
 
 GROUND = "ground"

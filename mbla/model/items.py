@@ -10,7 +10,7 @@ import numpy as np
 
 from mbla.arrays import BoolArray, IntArray
 from mbla.deck.deck import Deck
-from mbla.deck.positions import COPY
+from mbla.deck.kinds.positions import COPY
 from mbla.deck.sections.blocks import BlockItem
 from mbla.deck.sections.materials import Material
 from mbla.deck.units import Units

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
-from mbla.deck.load_key import LOAD_KEYS
+from mbla.deck.kinds.load_key import LOAD_KEYS
 from mbla.deck.sections.load_cases import LoadCaseSection, supports_of
 from mbla.errors import Finding, KeyPath
 from mbla.model.applied_load import AppliedLoad, without_levers

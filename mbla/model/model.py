@@ -12,10 +12,10 @@ from mbla.deck.sections.assessment import AssessmentSection
 from mbla.deck.units import Units
 from mbla.errors import Notice, UsageError
 from mbla.model.applied_load import AppliedLoad
-from mbla.model.fill import CarriedFill
-from mbla.model.guides import NO_GUIDES, Guides, joined, together
+from mbla.model.fill.fill import CarriedFill
 from mbla.model.solids.blocks import Blocks
 from mbla.model.solids.facets import NO_BENT_FACES, BentFaces
+from mbla.model.supports.guides import NO_GUIDES, Guides, joined, together
 from mbla.model.ties.ties import NO_TIES, Ties
 from mbla.questions import Question
 from mbla.questions.load_factor import LOAD_FACTOR

@@ -27,12 +27,12 @@ from mbla.deck.sections.objective import ForceSection, ObjectiveSection
 from mbla.deck.suggestions import listed
 from mbla.errors import Finding, KeyPath
 from mbla.model.applied_load import without_forces
-from mbla.model.guides import Guides, held_along
 from mbla.model.loads.load_kind import LoadSite
 from mbla.model.model import LoadCase
 from mbla.model.selectors import select_blocks
 from mbla.model.settlement import size_of_loads
 from mbla.model.solids.plane import unit
+from mbla.model.supports.guides import Guides, held_along
 from mbla.model.ties.ties import OUTSIDE, Ties
 from mbla.model.wording import counted, named, vector
 from mbla.questions.force import Force, Objective

@@ -14,9 +14,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from mbla.arrays import FloatArray, IntArray, row_of_item
-from mbla.model.guides import Guides
 from mbla.model.model import LoadCase, Model, Pushing
 from mbla.model.solids.blocks import Blocks
+from mbla.model.supports.guides import Guides
 from mbla.model.ties.ties import NO_TIES
 from mbla.questions.angle import Angle
 from mbla.questions.tilt import Tilt

@@ -26,12 +26,12 @@ from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.deck.sections.load_cases import LoadCaseSection, SettlementSection, supports_of
 from mbla.errors import Finding, KeyPath
 from mbla.model.applied_load import AppliedLoad, without_levers
-from mbla.model.guides import slide, turn
 from mbla.model.model import LoadCase
 from mbla.model.selectors import BlockSelection, select_blocks
 from mbla.model.solids.blocks import Blocks
 from mbla.model.solids.plane import unit
-from mbla.model.supports import Supports
+from mbla.model.supports.guides import slide, turn
+from mbla.model.supports.supports import Supports
 from mbla.model.wording import counted, named, vector
 from mbla.questions.reaction import Reaction, Settlement
 

@@ -8,7 +8,7 @@ import pytest
 from mbla.arrays import FloatArray
 from mbla.assembly.rigid_bodies import guides_at_odds
 from mbla.errors import DeckError
-from mbla.model.guides import Guides
+from mbla.model.supports.guides import Guides
 from tests.asked import settlement_of
 from tests.line import HEAD, case_of, factor_of
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from mbla.deck.kinds import Choice, ChoiceKind, in_order, keys_of, register
+from mbla.deck.kinds.kinds import Choice, ChoiceKind, in_order, keys_of, register
 from mbla.deck.section import Section
 
 

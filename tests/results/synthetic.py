@@ -17,10 +17,10 @@ from mbla.deck.sections.assessment import AssessmentSection
 from mbla.deck.units import Units
 from mbla.errors import Message, Notice
 from mbla.model.applied_load import without_forces
-from mbla.model.fill import CarriedFill
-from mbla.model.guides import Guides
+from mbla.model.fill.fill import CarriedFill
 from mbla.model.model import Ground, Joint, LoadCase, Model, Pushing
 from mbla.model.solids.blocks import Blocks, labels_of
+from mbla.model.supports.guides import Guides
 from mbla.model.ties.ties import Ties
 from mbla.program.reductions import ProgramSize, ReductionOutcome, ReductionStep
 from mbla.questions.angle import Angle

@@ -8,7 +8,7 @@ from typing import Any
 
 from pydantic import Field
 
-from mbla.deck.load_key import LOAD_KEYS, LoadKey
+from mbla.deck.kinds.load_key import LOAD_KEYS, LoadKey
 from mbla.deck.quantities import Direction, Length, Name, Number, Point
 from mbla.deck.section import Section, given, rule
 from mbla.deck.sections.selectors import Selector

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from mbla.deck.kinds import Choice, keys_of
+from mbla.deck.kinds.kinds import Choice, keys_of
 from mbla.deck.section import exactly_one_of
 from mbla.model.blocks import ITEM_KINDS as ITEM_KINDS
 from mbla.model.blocks.item import AnyItem, ItemKind

@@ -7,7 +7,7 @@ from typing import Annotated, TypeAlias
 
 from pydantic import ConfigDict, Field
 
-from mbla.deck.load_key import live_only
+from mbla.deck.kinds.load_key import live_only
 from mbla.deck.quantities import Direction, Integer, Number, PositiveLength
 from mbla.deck.section import ByShape, Section, exactly_one_of, given, one_of, rule
 from mbla.deck.sections.assessment import AssessmentSection

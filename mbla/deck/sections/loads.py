@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 from pydantic import Field, create_model
 
 import mbla.model.loads  # noqa: F401 - every file of it registers a kind
-from mbla.deck.kinds import in_order
-from mbla.deck.load_key import LOAD_KEYS as LOAD_KEYS
-from mbla.deck.load_key import NAMED, LoadKey, live_only, loads_that, loads_that_take, register_load
+from mbla.deck.kinds.kinds import in_order
+from mbla.deck.kinds.load_key import LOAD_KEYS as LOAD_KEYS
+from mbla.deck.kinds.load_key import NAMED, LoadKey, live_only, loads_that, loads_that_take, register_load
 from mbla.deck.quantities import Name, Point, PositiveMass
 from mbla.deck.section import Section, exactly_one_of, rule
 from mbla.deck.sections.any_load import AnyLoad

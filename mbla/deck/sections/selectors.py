@@ -7,8 +7,8 @@ from typing import Annotated, TypeAlias
 
 from pydantic import ConfigDict, Field
 
-from mbla.deck.kinds import in_order
-from mbla.deck.positions import COPY, SHARED
+from mbla.deck.kinds.kinds import in_order
+from mbla.deck.kinds.positions import COPY, SHARED
 from mbla.deck.quantities import Box, Index, Name, Position
 from mbla.deck.section import ByShape, Section, given, rule, with_keys
 from mbla.deck.sections.blocks import ITEM_KINDS

@@ -14,7 +14,7 @@ from typing import Literal
 import numpy as np
 from pydantic import Field
 
-from mbla.deck.positions import COURSE, RING, UNIT, VOUSSOIR
+from mbla.deck.kinds.positions import COURSE, RING, UNIT, VOUSSOIR
 from mbla.deck.quantities import Count, EmbraceAngle, PlanePoint, PositiveLength, SideAngle, SkewAngle
 from mbla.deck.section import ROUNDING, Section, rule
 from mbla.errors import Finding

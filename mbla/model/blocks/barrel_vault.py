@@ -12,7 +12,7 @@ import numpy as np
 from pydantic import Field
 
 from mbla.arrays import FloatArray
-from mbla.deck.positions import COURSE, UNIT
+from mbla.deck.kinds.positions import COURSE, UNIT
 from mbla.deck.quantities import PositiveLength
 from mbla.deck.section import rule
 from mbla.errors import Finding

@@ -13,7 +13,7 @@ from typing import Annotated, Literal, TypeAlias
 
 from pydantic import Field
 
-from mbla.deck.positions import COURSE, LEAF, RING, SPAN, UNIT, VOUSSOIR
+from mbla.deck.kinds.positions import COURSE, LEAF, RING, SPAN, UNIT, VOUSSOIR
 from mbla.deck.quantities import Count, PositiveLength, SideAngle
 from mbla.deck.section import ROUNDING, ByShape, Section, given, rule
 from mbla.errors import Finding

@@ -21,7 +21,7 @@ import numpy as np
 from pydantic import Field
 
 from mbla.arrays import FloatArray
-from mbla.deck.positions import DRUM
+from mbla.deck.kinds.positions import DRUM
 from mbla.deck.quantities import Count, Integer, NonNegativeLength, PositiveLength
 from mbla.deck.section import Section, exactly_one_of, given, rule
 from mbla.errors import Finding

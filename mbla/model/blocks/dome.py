@@ -29,7 +29,7 @@ import numpy as np
 from pydantic import Field
 
 from mbla.arrays import FloatArray
-from mbla.deck.positions import COURSE, RING, SEGMENT
+from mbla.deck.kinds.positions import COURSE, RING, SEGMENT
 from mbla.deck.quantities import Count, EmbraceAngle, Integer, PositiveLength
 from mbla.deck.section import Section, given, one_of, rule
 from mbla.errors import Finding

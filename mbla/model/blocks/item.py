@@ -11,8 +11,8 @@ from typing import Any, Literal, TypeAlias
 
 from pydantic import Field
 
-from mbla.deck.kinds import ChoiceKind, register
-from mbla.deck.positions import BlockPosition
+from mbla.deck.kinds.kinds import ChoiceKind, register
+from mbla.deck.kinds.positions import BlockPosition
 from mbla.deck.quantities import Name
 from mbla.deck.section import Section, rule
 from mbla.deck.sections.placement import Repeat, Transform

@@ -18,7 +18,7 @@ import numpy as np
 from pydantic import Field
 
 from mbla.arrays import FloatArray, IntArray
-from mbla.deck.positions import TREAD
+from mbla.deck.kinds.positions import TREAD
 from mbla.deck.quantities import Count, Integer, Name, NonNegativeLength, PositiveLength, RealNumber
 from mbla.deck.section import rule
 from mbla.errors import Finding

@@ -12,7 +12,7 @@ import numpy as np
 from pydantic import Field
 
 from mbla.arrays import FloatArray
-from mbla.deck.positions import DRUM
+from mbla.deck.kinds.positions import DRUM
 from mbla.deck.quantities import Count, Length, PlanePoint, PositiveLength, PositiveNumber
 from mbla.deck.section import given, rule
 from mbla.deck.suggestions import listed

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 from pydantic import Field
 
-from mbla.deck.positions import COURSE, LEAF, SEGMENT, UNIT, VOUSSOIR
+from mbla.deck.kinds.positions import COURSE, LEAF, SEGMENT, UNIT, VOUSSOIR
 from mbla.deck.quantities import Index, PlanePoint, Switch
 from mbla.deck.section import Section, rule
 from mbla.errors import Finding, KeyPath

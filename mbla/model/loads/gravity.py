@@ -12,7 +12,7 @@ import numpy as np
 from pydantic import Discriminator, Tag
 
 from mbla.arrays import FloatArray, IntArray
-from mbla.deck.load_key import register_load
+from mbla.deck.kinds.load_key import register_load
 from mbla.deck.quantities import Acceleration, Vector
 from mbla.deck.sections.any_load import AnyLoad
 from mbla.deck.units import Units

@@ -2,7 +2,7 @@
 
 Each part of the line acts on the block under it: of a part of length l about its middle m, the force q l at m. The sum
 of forces is q L and their moment that of q L at the middle of the line, whatever the blocks. Where the line runs along
-the joint of two blocks each carries half. On fill it spreads to both sides (:mod:`mbla.model.loads.dispersal`).
+the joint of two blocks each carries half. On fill it spreads to both sides (:mod:`mbla.model.fill.dispersal`).
 """
 
 from __future__ import annotations
@@ -13,13 +13,13 @@ import numpy as np
 from pydantic import Field
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
-from mbla.deck.load_key import register_load
+from mbla.deck.kinds.load_key import register_load
 from mbla.deck.quantities import Direction, ForcePerLength, Point
 from mbla.deck.section import Section, rule
 from mbla.errors import Finding, KeyPath
 from mbla.model.applied_load import AppliedLoad, sum_on_blocks, wrenches_of
+from mbla.model.fill.dispersal import Spread
 from mbla.model.loads.blocks_under import Below
-from mbla.model.loads.dispersal import Spread
 from mbla.model.loads.load_footprint import PARALLEL, LoadFootprint, level
 from mbla.model.loads.load_kind import Entry, LoadKind, LoadSite
 from mbla.model.wording import counted, vector

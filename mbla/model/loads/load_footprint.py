@@ -13,9 +13,9 @@ import numpy as np
 from mbla.arrays import FloatArray, IntArray
 from mbla.errors import Finding, KeyPath, Notice
 from mbla.model.applied_load import sum_on_blocks, wrenches_of
-from mbla.model.fill import FillBody
+from mbla.model.fill.dispersal import Spread, beside, emerging, spread
+from mbla.model.fill.fill import FillBody
 from mbla.model.loads.blocks_under import Below
-from mbla.model.loads.dispersal import Spread, beside, emerging, spread
 from mbla.model.loads.load_kind import LoadSite
 from mbla.model.wording import named, vector
 

@@ -12,14 +12,14 @@ from pathlib import Path
 from typing import Any, TypeAlias
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
-from mbla.deck.load_key import LOAD_KEYS, NAMED, LoadKey
+from mbla.deck.kinds.load_key import LOAD_KEYS, NAMED, LoadKey
 from mbla.deck.quantities import Vector
 from mbla.deck.sections.any_load import AnyLoad
 from mbla.deck.sections.vehicles import Vehicle
 from mbla.deck.units import Units
 from mbla.errors import Finding, KeyPath, Notice
 from mbla.model.applied_load import AppliedLoad
-from mbla.model.fill import FillBody
+from mbla.model.fill.fill import FillBody
 from mbla.model.model import Ground
 from mbla.model.selectors import BlockSelection
 from mbla.model.solids.blocks import NO_MASSES, Blocks, PointMasses

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from mbla.arrays import IntArray
-from mbla.deck.load_key import register_load
+from mbla.deck.kinds.load_key import register_load
 from mbla.deck.quantities import Moment
 from mbla.model.applied_load import AppliedLoad, without_levers
 from mbla.model.loads.load_kind import Entry, LoadKind, LoadSite, one_block

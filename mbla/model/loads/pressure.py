@@ -20,7 +20,7 @@ import numpy as np
 from pydantic import Field
 
 from mbla.arrays import FloatArray, IntArray
-from mbla.deck.load_key import register_load
+from mbla.deck.kinds.load_key import register_load
 from mbla.deck.quantities import Box, Direction, FacingAngle, Length, Stress, UnitWeight, WallFrictionAngle
 from mbla.deck.section import Section, rule
 from mbla.errors import Finding, KeyPath

@@ -8,7 +8,7 @@ import numpy as np
 from pydantic import Field
 
 from mbla.arrays import FloatArray, IntArray
-from mbla.deck.load_key import register_load
+from mbla.deck.kinds.load_key import register_load
 from mbla.deck.suggestions import did_you_mean, listed
 from mbla.errors import DeckError, Message
 from mbla.model.applied_load import AppliedLoad, sum_on_blocks, wrenches_of

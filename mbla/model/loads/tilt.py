@@ -16,7 +16,7 @@ import numpy as np
 from pydantic import Field
 
 from mbla.arrays import FloatArray
-from mbla.deck.load_key import register_load
+from mbla.deck.kinds.load_key import register_load
 from mbla.deck.quantities import Direction
 from mbla.deck.section import Section
 from mbla.errors import Finding

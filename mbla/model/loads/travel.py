@@ -18,14 +18,14 @@ import numpy as np
 from pydantic import Field
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
-from mbla.deck.load_key import register_load
+from mbla.deck.kinds.load_key import register_load
 from mbla.deck.quantities import Direction, Force, Name, Point, Positions, PositiveLength
 from mbla.deck.section import Section, exactly_one_of, given, rule
 from mbla.deck.sections.vehicles import DOWN, TOWARDS, WIDTH, Axle
 from mbla.errors import Finding, KeyPath, Notice
 from mbla.model.applied_load import AppliedLoad
+from mbla.model.fill.dispersal import Spread
 from mbla.model.loads.blocks_under import Below
-from mbla.model.loads.dispersal import Spread
 from mbla.model.loads.load_footprint import LoadFootprint, level, on_blocks, share_of
 from mbla.model.loads.load_kind import CaseKind, Entry, LoadSite, Variant
 from mbla.model.loads.vehicle import Axles, axles_in_row, axles_of, remark_upwards

@@ -9,7 +9,7 @@ import numpy as np
 from pydantic import Field
 
 from mbla.arrays import FloatArray, IntArray
-from mbla.deck.load_key import register_load
+from mbla.deck.kinds.load_key import register_load
 from mbla.deck.quantities import Direction, Name, Point
 from mbla.deck.section import Section
 from mbla.deck.sections.vehicles import DOWN, TOWARDS, Axle, Vehicle

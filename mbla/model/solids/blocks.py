@@ -14,7 +14,7 @@ from types import MappingProxyType
 import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray, starts, summed
-from mbla.deck.positions import NONE
+from mbla.deck.kinds.positions import NONE
 from mbla.deck.sections.selectors import POSITIONS
 from mbla.model.solids.polyhedra import Polyhedra
 from mbla.model.solids.ragged import items_of_rows, row_ranges

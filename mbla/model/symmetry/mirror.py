@@ -19,7 +19,7 @@ from mbla.errors import DeckError, Finding, KeyPath
 from mbla.model.model import Model
 from mbla.model.selectors import BlockSelection, select_blocks
 from mbla.model.solids.ragged import row_maxima
-from mbla.model.supports import plane_of
+from mbla.model.supports.supports import plane_of
 from mbla.model.transform import AffineMap, reflection
 from mbla.model.wording import named
 

@@ -17,8 +17,7 @@ from mbla.arrays import FloatArray, IntArray
 from mbla.deck.deck import Deck
 from mbla.errors import DeckError, KeyPath, Notice
 from mbla.model.applied_load import AppliedLoad
-from mbla.model.fill import CarriedFill
-from mbla.model.guides import Guides
+from mbla.model.fill.fill import CarriedFill
 from mbla.model.join import polyhedra_of
 from mbla.model.model import Ground, LoadCase, Model, Pushing
 from mbla.model.selectors import BlockSelection, check_overrides
@@ -27,6 +26,7 @@ from mbla.model.solids.blocks import BlockLabels, Blocks, carried_masses, join_l
 from mbla.model.solids.build import Labels, build_blocks
 from mbla.model.solids.plane import plane_axes
 from mbla.model.solids.polyhedra import join_polyhedra, take_polyhedra
+from mbla.model.supports.guides import Guides
 from mbla.model.symmetry.halves import halves_joined
 from mbla.model.symmetry.mirror import ACROSS, MirrorPlane, find_mirror, refuse
 from mbla.model.symmetry.refusals import cannot_mirror, loads_across

@@ -17,7 +17,7 @@ from mbla.model.model import Ground
 from mbla.model.selectors import BlockSelection, select_blocks
 from mbla.model.solids.plane import plane_axes, unit
 from mbla.model.solids.ragged import items_of_rows
-from mbla.model.surfaces import lies_on
+from mbla.model.supports.surfaces import lies_on
 from mbla.model.ties.build import ties_of
 from mbla.model.ties.lines import TieLine, TieSite, build_lines, cuts_of
 from mbla.model.ties.ties import OUTSIDE, Ties, joined_ties

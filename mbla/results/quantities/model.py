@@ -7,9 +7,9 @@ from collections.abc import Iterable
 import numpy as np
 
 from mbla.arrays import FloatArray, IntArray, starts
-from mbla.model.fill import CarriedFill
-from mbla.model.guides import Guides
+from mbla.model.fill.fill import CarriedFill
 from mbla.model.model import Ground, Joint, Model
+from mbla.model.supports.guides import Guides
 from mbla.results.quantities.group import Field, Group
 
 MODEL = Group[Model](lambda scene: scene.model, file="model")

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from mbla.deck.positions import COPY
+from mbla.deck.kinds.positions import COPY
 from mbla.deck.schema import deck_schema
 from mbla.deck.sections.blocks import BlockItem
 from mbla.deck.sections.selectors import POSITIONS

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from mbla.deck.load_key import LOAD_KEYS, NAMED, live_only
+from mbla.deck.kinds.load_key import LOAD_KEYS, NAMED, live_only
 from mbla.deck.schema import deck_schema
 from mbla.deck.section import EXACTLY_ONE, Section
 from mbla.deck.sections.loads import Load

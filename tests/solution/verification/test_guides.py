@@ -10,8 +10,8 @@ from mbla.assembly.assembly import Assembly
 from mbla.contacts import find_contacts
 from mbla.deck import read_deck
 from mbla.model import build_model
-from mbla.model.guides import Guides, joined, rigid_motions, slide, turn
 from mbla.model.model import Model
+from mbla.model.supports.guides import Guides, joined, rigid_motions, slide, turn
 from mbla.program import assemble
 from mbla.solution.settings import solver_settings
 from mbla.solution.solve import solve_parts

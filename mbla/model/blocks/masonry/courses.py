@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
-from mbla.deck.positions import NONE
+from mbla.deck.kinds.positions import NONE
 from mbla.model.blocks.generated import ItemPart
 from mbla.model.blocks.masonry.bonds import (
     ROUNDING,

@@ -22,7 +22,7 @@ from typing import TypeAlias
 import numpy as np
 
 from mbla.arrays import FloatArray
-from mbla.deck.positions import COURSE, SEGMENT, SPAN, UNIT
+from mbla.deck.kinds.positions import COURSE, SEGMENT, SPAN, UNIT
 from mbla.deck.quantities import PositiveLength
 from mbla.deck.section import ROUNDING, rule
 from mbla.errors import Finding

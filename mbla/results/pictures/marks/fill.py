@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from mbla.arrays import FloatArray
-from mbla.model.fill import FillBody
+from mbla.model.fill.fill import FillBody
 from mbla.results.pictures.marks.marks import Mark, outer_rows
 from mbla.results.pictures.page import FILL
 from mbla.results.pictures.scene import PictureScene

@@ -28,7 +28,7 @@ import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray, summed
 from mbla.deck.sections.fill import Dispersal
-from mbla.model.fill import FillBody
+from mbla.model.fill.fill import FillBody
 from mbla.model.solids.blocks import Blocks
 from mbla.model.solids.plane import cut, signed_areas
 from mbla.model.solids.polygons import Polygons, polygons_from_loops, triangles

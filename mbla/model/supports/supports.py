@@ -15,14 +15,21 @@ from mbla.errors import DeckError, Finding, KeyPath
 from mbla.model.blocks.files.members import placed_vertices, read_members, surfaces_of_sheets
 from mbla.model.blocks.generated import ItemRefused
 from mbla.model.geometry.sheets import sheets
-from mbla.model.guides import NO_GUIDES, Guides, guides_of, is_guide, joined
 from mbla.model.model import Ground
 from mbla.model.selectors import BlockSelection, select_blocks
 from mbla.model.solids.blocks import Blocks
 from mbla.model.solids.plane import unit
 from mbla.model.solids.ragged import row_maxima
 from mbla.model.solids.surface import GroundSurface
-from mbla.model.surfaces import FACING, Carried, allowed_blocks, grounds_of_surfaces, surface_of_polygon, touching_only
+from mbla.model.supports.guides import NO_GUIDES, Guides, guides_of, is_guide, joined
+from mbla.model.supports.surfaces import (
+    FACING,
+    Carried,
+    allowed_blocks,
+    grounds_of_surfaces,
+    surface_of_polygon,
+    touching_only,
+)
 from mbla.model.wording import named, vector
 
 

@@ -30,7 +30,7 @@ import numpy as np
 from mbla.arrays import BoolArray, FloatArray, IntArray, starts, summed
 from mbla.deck.sections.fill import Passive
 from mbla.errors import Notice
-from mbla.model.fill import FillBody, columns
+from mbla.model.fill.fill import FillBody, columns
 from mbla.model.selectors import BlockSelection
 from mbla.model.solids.blocks import Blocks
 from mbla.model.ties.ties import COHESION, FILL, OUTSIDE, Ties, joined_ties

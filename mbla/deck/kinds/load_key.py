@@ -10,7 +10,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from mbla.deck.kinds import ChoiceKind, in_order, register
+from mbla.deck.kinds.kinds import ChoiceKind, in_order, register
 
 
 @dataclass(frozen=True, kw_only=True)

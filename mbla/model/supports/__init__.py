@@ -1,0 +1,1 @@
+"""What holds a structure: ground planes and surfaces, blocks that do not move, guided blocks."""
