@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from typing import TypeAlias
 
 import numpy as np
 
@@ -45,8 +46,12 @@ def refuse_unfit(deck: Deck) -> None:
             raise UsageError("strengthen-not-possible", words)
 
 
-def question_of(deck: Deck, log: Log) -> tuple[Model, Candidates, Strengthening]:
-    """Model, candidates and program of a deck; raises DeckError with the faults of candidates."""
+Posed: TypeAlias = tuple[Model, Candidates, Strengthening]
+"""model of a deck, candidates, and the program of both"""
+
+
+def question_of(deck: Deck, log: Log) -> Posed:
+    """What a deck asks; raises DeckError with the faults of candidates."""
     section = deck.content.strengthen
     assert section is not None  # refused before
     assembly = build_assembly(deck, build_model(deck))

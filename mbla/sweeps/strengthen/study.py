@@ -37,11 +37,11 @@ from mbla.results.write import write_results
 from mbla.run import run, solve_deck
 from mbla.solution.cone_solvers.cone_solution import Log
 from mbla.solution.further.strengthening.cheapest import cheapest
-from mbla.solution.further.strengthening.strengthening import Cheapest, Strengthening
+from mbla.solution.further.strengthening.strengthening import Cheapest
 from mbla.solution.solution import WITH_VALUE, Status
 from mbla.sweeps.strengthen.catalogue import rounded_up
 from mbla.sweeps.strengthen.ceiling import GREATEST, RAISED, greatest_capacities, settled_factors, shortfall
-from mbla.sweeps.strengthen.question import SHORT, question_of, refuse_unfit, required_of, with_fewer
+from mbla.sweeps.strengthen.question import SHORT, Posed, question_of, refuse_unfit, required_of, with_fewer
 
 MOST_REPEATS, MARGIN, LEAST_SLOPE = 10, 5e-4, 0.25
 """analyses after the first one, share of a required load factor that is asked for beyond what was short, and what an
@@ -112,12 +112,12 @@ def strengthen(deck: Deck, options: RunOptions, log: Log) -> Strengthened:
     movable = movable_deck(deck, deck_record(deck).files, stem)
     with OutputFolder(options.folder_for(deck.path), stem, options.force, secondary=True) as out:
         out.refuse(f"{stem}.yaml", f"{stem}.csv", *movable.files)
-    model, candidates, question = question_of(deck, log)
+    model, candidates, question = posed = question_of(deck, log)
     found = cheapest(question)
     if found.status not in WITH_VALUE:
         none = np.zeros(len(candidates.costs))
         return Strengthened(deck, model, candidates, found, none, required_of(deck), 1.0, math.nan, {}, False, 0, ())
-    return _analysed(deck, movable, model, candidates, found, question, options)
+    return _analysed(deck, movable, posed, found, options)
 
 
 @dataclass(frozen=True)
@@ -140,17 +140,10 @@ class _Attempt:
         return min(shares, default=0.0)
 
 
-def _analysed(
-    deck: Deck,
-    movable: MovableDeck,
-    model: Model,
-    candidates: Candidates,
-    first: Cheapest,
-    question: Strengthening,
-    options: RunOptions,
-) -> Strengthened:
+def _analysed(deck: Deck, movable: MovableDeck, posed: Posed, first: Cheapest, options: RunOptions) -> Strengthened:
     """The strengthened structure, as much more asked of the program as it takes for it to carry what it has to."""
     assert deck.content.strengthen is not None  # who calls knows
+    model, candidates, question = posed
     required, catalogue, tries = required_of(deck), deck.content.strengthen.catalogue, list[_Attempt]()
     asked, raised, wanted, short, same = required, 1.0, with_fewer(question, first, catalogue), "", 0
     for _ in range(MOST_REPEATS + 1):
