@@ -51,8 +51,7 @@ def interact(deck: Deck, run: RunOptions, options: Any, report: Report | None) -
     Raises DeckError, UsageError: the deck is not valid, or cannot be asked this; nothing is written then. Raises
     FileError: files are in the way or cannot be written.
     """
-    name = "_".join(("interact", *(options.loads or ())))
-    chosen = study_options(deck, run, name, EngineOptions(workers=options.jobs))
+    chosen = study_options(deck, run, "_".join(("interact", *(options.loads or ()))), EngineOptions(options.jobs))
     assert chosen.folder is not None
     question = question_of(deck, options, lambda: factor_ratio(deck, run, options.loads))
     return run_sweep(prepared_diagram(deck, run, question, chosen.folder), chosen, report)
@@ -85,12 +84,11 @@ def study_result_of(deck: Deck, question: InteractionQuestion, table: SweepTable
     lines = [*heading_lines(deck), *sentence(question.words), "", *_point_table(question, points, table), ""]
     for text in (*words[1:], *_reasons(question, table)):
         lines += sentence(text)
-    title = [deck.title, *words[:2]]
     rule = deck.analysis.flow_rule.replace("_", "-")
     return StudyResult(
         columns=factors,
         record={"interaction": _record(question, points, domain, words)},
-        pictures={"interact": partial(draw_diagram, title, rule, question, points, domain)},
+        pictures={"interact": partial(draw_diagram, [deck.title, *words[:2]], rule, question, points, domain)},
         lines=lines,
         exit_code=_exit_code(table, points, domain),
     )
