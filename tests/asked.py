@@ -13,13 +13,11 @@ from mbla.questions.tilt import Tilt
 
 
 def tilt_of(case: LoadCase) -> Tilt:
-    """Its tilting table."""
     assert isinstance(case.question, Angle)
     return case.question.tilt
 
 
 def settlement_of(case: LoadCase) -> Settlement:
-    """Its settling support, or that of its load cell."""
     assert isinstance(case.question, Reaction)
     return case.question.settlement
 

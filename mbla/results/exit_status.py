@@ -7,8 +7,8 @@ from collections.abc import Sequence
 
 from mbla.deck.content import Expectation
 from mbla.errors import Notice
-from mbla.results.force_range import ForceRange, end_value, force_ranges_of
-from mbla.results.outcome import answer_of, associative_of, least_of, result_of
+from mbla.results.force_range import ForceRange, force_ranges_of
+from mbla.results.outcome import answer_of, associative_of, figure_of, least_of, result_of
 from mbla.results.results import CaseResult
 from mbla.results.series import series_of
 from mbla.solution.solution import Status
@@ -82,7 +82,7 @@ def _compare_force(force: ForceRange, expected: Expectation) -> list[str]:
     """What differs of a force: the graver status of both ends, and the values of the ends that are expected."""
     found = _compare_status(force.name, force.status, expected)
     for end, case in force.ends.items():
-        value, wanted = end_value(case), getattr(expected, end)
+        value, wanted = figure_of(case), getattr(expected, end)
         if wanted is not None:
             found += _compare(force.name, end, value, wanted, _least("reaction", case), expected)
     return found

@@ -6,7 +6,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from mbla.questions.force import Force
-from mbla.results.outcome import answer_of
 from mbla.results.results import CaseResult
 from mbla.solution.solution import Status
 
@@ -51,9 +50,3 @@ def other_end(cases: Sequence[CaseResult], case: CaseResult) -> CaseResult | Non
     """The other end of the force of a case; None where it has none, or that was not solved."""
     own = [each for each in force_ranges_of(cases) if each.name == case.load_case.question.series]
     return next((end for each in own for end in each.ends.values() if end is not case), None)
-
-
-def end_value(case: CaseResult) -> float:
-    """Value of an end; infinite where forces of any size fit, nan where there is no result."""
-    question = case.load_case.question
-    return question.unlimited if case.status is Status.UNBOUNDED else answer_of(case)

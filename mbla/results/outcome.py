@@ -252,6 +252,11 @@ def answer_of(case: CaseResult, group: str = "") -> float:
     return math.nan if found is None or group not in ("", question.group) else question.stated(found.load_factor)
 
 
+def figure_of(case: CaseResult) -> float:
+    """The same; infinite where nothing limits it: no multiple brings anything down, forces of any size fit."""
+    return case.load_case.question.unlimited if case.status is Status.UNBOUNDED else answer_of(case)
+
+
 def answer_bounds(case: CaseResult) -> tuple[float, float]:
     """Between which figures the answer is proved to lie by associative flow; nan if not known."""
     associative, checks = case.solution.associative, case.checks

@@ -12,9 +12,8 @@ from mbla.errors import UsageError
 from mbla.model.model import LoadCase, Model
 from mbla.model.solids.blocks import Blocks
 from mbla.questions.travel_position import TravelPosition
-from mbla.results.outcome import result_of
+from mbla.results.outcome import figure_of
 from mbla.results.results import CaseResult, Results
-from mbla.solution.solution import Status
 
 SAME = 1e-6
 """relative difference of load factors that is rounding: of equal positions the first is the worst"""
@@ -37,17 +36,9 @@ class Series:
         return len(self.cases) == self.cases[0].load_case.question.place.count
 
 
-def factor_of(case: CaseResult) -> float:
-    """Load factor of a position; inf where no multiple brings anything down, nan where there is no result."""
-    if case.status is Status.UNBOUNDED:
-        return np.inf
-    found = result_of(case)
-    return np.nan if found is None else found.load_factor
-
-
 def worst_known(cases: Sequence[CaseResult]) -> CaseResult:
     """Of some positions of a travelling load the worst; of those that have a load factor where it is not known."""
-    factors = np.nan_to_num([factor_of(case) for case in cases], nan=np.inf)
+    factors = np.nan_to_num([figure_of(case) for case in cases], nan=np.inf)
     return _worst(cases) or cases[int(np.argmin(factors))]
 
 
@@ -76,7 +67,7 @@ def detailed_cases(cases: Sequence[CaseResult]) -> tuple[CaseResult, ...]:
     names = {case.load_case.name for case in cases}
     names -= {case.load_case.name for series in travelling for case in series.cases}
     for series in travelling:
-        factors = np.array([factor_of(case) for case in series.cases])
+        factors = np.array([figure_of(case) for case in series.cases])
         unknown = [case for case, factor in zip(series.cases, factors, strict=True) if np.isnan(factor)]
         pushed = [case for case in series.cases if case.load_case.pushover is not None]
         names |= {case.load_case.name for case in (worst_known(series.cases), *unknown, *pushed)}
@@ -93,7 +84,7 @@ def series_of(cases: Sequence[CaseResult]) -> tuple[Series, ...]:
 
 
 def _worst(cases: Sequence[CaseResult]) -> CaseResult | None:
-    factors = [factor_of(case) for case in cases]
+    factors = [figure_of(case) for case in cases]
     if np.isnan(factors).any() or not np.isfinite(factors).any():
         return None
     least = min(factors)

@@ -9,8 +9,8 @@ from collections.abc import Sequence
 import numpy as np
 import pytest
 
-from mbla.results.force_range import end_value, force_ranges_of
-from mbla.results.outcome import answer_bounds, answer_of
+from mbla.results.force_range import force_ranges_of
+from mbla.results.outcome import answer_bounds, answer_of, figure_of
 from mbla.results.results import CaseResult
 from mbla.solution.sequence.objective import measured_force
 from mbla.solution.solution import Status
@@ -52,8 +52,8 @@ def ends_in(cases: Sequence[CaseResult]) -> dict[str, tuple[float, float]]:
                 low, high = answer_bounds(case)
                 settlement = settlement_of(case.load_case)
                 room = 1e-9 * settlement.unit
-                assert low - room <= end_value(case) <= high + room
-        found[force.name] = end_value(force.ends["least"]), end_value(force.ends["greatest"])
+                assert low - room <= figure_of(case) <= high + room
+        found[force.name] = figure_of(force.ends["least"]), figure_of(force.ends["greatest"])
     return found
 
 
@@ -289,7 +289,7 @@ def test_beyond_collapse_nothing_carries_the_loads() -> None:
     for case in pair:
         assert case.status is Status.NO_EQUILIBRIUM
         assert case.checks.verified
-        assert math.isnan(end_value(case))
+        assert math.isnan(figure_of(case))
 
 
 @pytest.mark.every(2)

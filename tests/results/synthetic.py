@@ -445,11 +445,12 @@ def full_solution(solution: Solution) -> Solution:
     )
 
 
-def standing_at(number: int, count: int, point: Any, distance: float, behind: Any = ()) -> TravelPosition:
+def standing_at(number: int, count: int, point: Any, distance: float, behind: Any = ()) -> Travel:
     """A force of 1 N on the tower that travels, or the first axle of a vehicle along x; the others are off the path."""
     axles = np.array([0.0, *behind])
     points, forces = np.asarray(point, float) - axles[:, None] * [1.0, 0, 0], np.tile([0.0, 0, -1], (len(axles), 1))
-    return TravelPosition("train", number, count, points, distance - axles, forces, np.where(axles > 0, -1, 1))
+    on = np.where(axles > 0, -1, 1)
+    return Travel(TravelPosition("train", number, count, points, distance - axles, forces, on))
 
 
 TIE = Ties(
@@ -484,7 +485,7 @@ def full_model(model: Model) -> Model:
         live_following=np.arange(18.0, 36.0).reshape(3, 6),
         live_following_levers=np.arange(27.0).reshape(3, 9),
     )
-    travel = Travel(replace(standing_at(2, 12, np.array([1.0, 2.0, 3.0]), 2.5), spread=True))
+    travel = Travel(replace(standing_at(2, 12, np.array([1.0, 2.0, 3.0]), 2.5).place, spread=True))
     angle = Angle(Tilt(np.array([0.0, 1.0, 0.0]), arrays[0], arrays[1], arrays[2], 12.5, False, np.inf))
     force = Force(
         Settlement(np.zeros(0, dtype=np.int64), np.zeros((0, 6)), False, "force", 3.0, 20.0, -1.0),

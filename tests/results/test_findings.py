@@ -10,7 +10,6 @@ import pytest
 from mbla.errors import Message
 from mbla.questions.angle import Angle
 from mbla.questions.tilt import Tilt
-from mbla.questions.travel import Travel
 from mbla.results.findings import found_notices, magnitude_notices
 from mbla.results.listing.verdict_words import verdict
 from mbla.results.outcome import notices_of
@@ -73,7 +72,7 @@ def test_what_is_claimed_but_not_verified() -> None:
 def test_harmless_positions_of_a_travelling_load_are_no_warnings() -> None:
     results = tower_results()
     position = standing_at(1, 2, results.model.blocks.centroids[1], 0.0)
-    cases = tuple(replace(push(), load_case=replace(push().load_case, question=Travel(position))) for _ in range(2))
+    cases = tuple(replace(push(), load_case=replace(push().load_case, question=position)) for _ in range(2))
     locked = replace(cases[0], status=Status.UNBOUNDED)
 
     def severities(*chosen: CaseResult) -> list[str]:

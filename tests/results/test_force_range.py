@@ -10,11 +10,11 @@ import pytest
 from mbla.deck import read_deck
 from mbla.questions.force import Objective
 from mbla.results.exit_status import differences, exit_code
-from mbla.results.force_range import end_value, force_ranges_of
+from mbla.results.force_range import force_ranges_of
 from mbla.results.hdf5.result_file import read_results_hdf5
 from mbla.results.listing.answers import range_words
 from mbla.results.listing.listing import listing
-from mbla.results.outcome import answer_bounds
+from mbla.results.outcome import answer_bounds, figure_of
 from mbla.results.pictures.marks.forces import force_texts, thrust_lines
 from mbla.results.pictures.marks.loads import live_marks
 from mbla.results.pictures.options import PictureOptions
@@ -62,11 +62,11 @@ def solved(tmp_path_factory: pytest.TempPathFactory) -> tuple[Results, Path]:
 def test_values_and_bounds(solved: tuple[Results, Path]) -> None:
     left, every, lifted = force_ranges_of(solved[0].cases)
     assert left.status is Status.UNBOUNDED
-    assert end_value(left.ends["greatest"]) == math.inf
+    assert figure_of(left.ends["greatest"]) == math.inf
     assert every.status is Status.SOLVED
     for case in every.ends.values():
         low, high = answer_bounds(case)
-        assert end_value(case) == pytest.approx(1.5 * WEIGHT, rel=1e-7)
+        assert figure_of(case) == pytest.approx(1.5 * WEIGHT, rel=1e-7)
         assert low <= high * (1 + 1e-9)
         assert high - low <= 1e-6 * WEIGHT
     assert lifted.status is Status.NO_EQUILIBRIUM
@@ -153,7 +153,7 @@ def test_of_a_force_that_statics_alone_gives_no_joint_moves(tmp_path: Path, glue
     results = run(path, RunOptions(folder=tmp_path / "out"))
     for case in results.cases:
         assert case.status is Status.SOLVED
-        assert end_value(case) == pytest.approx(0.0, abs=1e-2)  # N, of a weight of 60 kN
+        assert figure_of(case) == pytest.approx(0.0, abs=1e-2)  # N, of a weight of 60 kN
         assert case.solution.mechanics is not None
         assert not case.solution.mechanics.modes.any()
     assert verify_file(tmp_path / "out" / "still.h5")[1] == ()

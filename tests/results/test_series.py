@@ -11,15 +11,14 @@ from typing import Any
 import pytest
 
 from mbla.errors import UsageError
-from mbla.questions.travel import Travel
 from mbla.results.exit_status import differences
 from mbla.results.listing.answers import standing_words
 from mbla.results.listing.listing import listing
 from mbla.results.listing.summary import summary_lines
-from mbla.results.outcome import answer_bounds, answer_of
+from mbla.results.outcome import answer_bounds, answer_of, figure_of
 from mbla.results.record.json_record import results_json
 from mbla.results.results import CaseResult, Results
-from mbla.results.series import chosen_cases, detailed_cases, factor_of, series_of
+from mbla.results.series import chosen_cases, detailed_cases, series_of
 from mbla.run import RunOptions, run
 from mbla.solution.solution import Status
 from tests.results.synthetic import standing_at, tower_results
@@ -60,8 +59,8 @@ def test_a_load_factor_for_each_position_and_the_worst(results: Results) -> None
     (series,) = series_of(results.cases)
     assert series.complete
     assert [case.load_case.name for case in series.cases] == [f"crane@{number}" for number in range(1, 6)]
-    assert factor_of(series.cases[0]) == pytest.approx(4, rel=1e-2)
-    assert math.isinf(factor_of(series.cases[2]))
+    assert figure_of(series.cases[0]) == pytest.approx(4, rel=1e-2)
+    assert math.isinf(figure_of(series.cases[2]))
     assert series.worst is series.cases[0]  # of equal ones the first
 
 
@@ -106,8 +105,7 @@ def train(statuses: Sequence[Status], factors: Sequence[float]) -> tuple[CaseRes
     assert case.solution.mechanics is not None
     cases = []
     for i, (status, factor) in enumerate(zip(statuses, factors, strict=True), start=1):
-        travel = Travel(standing_at(i, len(statuses), [i, 0, 0], i))
-        load_case = replace(case.load_case, name=f"train@{i}", question=travel)
+        load_case = replace(case.load_case, name=f"train@{i}", question=standing_at(i, len(statuses), [i, 0, 0], i))
         mechanics = replace(case.solution.mechanics, load_factor=factor)
         solution = replace(case.solution, mechanics=mechanics, associative=mechanics)
         cases.append(replace(case, load_case=load_case, status=status, solution=solution))
@@ -146,7 +144,7 @@ def test_positions_told_in_full(statuses: Sequence[Status], factors: Sequence[fl
     ],
 )
 def test_a_vehicle_stands_where_its_first_axle_is(behind: Any, words: str) -> None:
-    assert standing_words(tower_results().model, standing_at(1, 9, [7, 0, 3], 9.0, behind)) == words
+    assert standing_words(tower_results().model, standing_at(1, 9, [7, 0, 3], 9.0, behind).place) == words
 
 
 @pytest.mark.long

@@ -10,12 +10,12 @@ import numpy as np
 from mbla.model.model import LoadCase, Model
 from mbla.questions.figures import significant
 from mbla.questions.travel_position import TravelPosition
-from mbla.results.force_range import ForceRange, end_value
+from mbla.results.force_range import ForceRange
 from mbla.results.listing.blocks import GAP, Fact, ListingSection, Paragraph, apart, table_of
 from mbla.results.listing.text import counted, number, vector
-from mbla.results.outcome import answer_bounds, answer_of, associative_of, least_of, result_of
+from mbla.results.outcome import answer_bounds, answer_of, associative_of, figure_of, least_of, result_of
 from mbla.results.results import CaseResult
-from mbla.results.series import Series, factor_of
+from mbla.results.series import Series
 from mbla.solution.solution import Status
 
 
@@ -112,7 +112,7 @@ def range_words(model: Model, found: ForceRange) -> str:
         return f"{what}: none, the structure does not carry these loads"
     words = []
     for end, each in found.ends.items():
-        value = end_value(each)
+        value = figure_of(each)
         limit = (
             "without limit" if np.isinf(value) else "not known" if np.isnan(value) else f"{_end_figure(each)} {unit}"
         )
@@ -125,7 +125,7 @@ UNSURE = tuple(status for status in Status if status not in (Status.SOLVED, Stat
 
 
 def _end_figure(case: CaseResult) -> str:
-    return number(case.load_case.question.shown(end_value(case)))
+    return number(case.load_case.question.shown(figure_of(case)))
 
 
 # --- Travelling loads in words: where a vehicle stands, a row for each position, and the worst ----------------------
@@ -148,7 +148,7 @@ def worst_words(model: Model, series: Series) -> str:
     """``worst at position 6 of 21, at (1.2, 0.5, 3) m: load factor 2.31``; of a vehicle, where its axles stand."""
     among = "" if series.complete else f" among the {counted(len(series.cases), 'position')} solved"
     if series.worst is None:
-        unknown = [case for case in series.cases if not factor_of(case) > 0]
+        unknown = [case for case in series.cases if not figure_of(case) > 0]
         if not unknown:
             return f"{series.name}: no multiple of the load brings the structure down at any position{among}"
         names = ", ".join(case.load_case.name for case in unknown[:MOST_NAMED])
@@ -156,7 +156,7 @@ def worst_words(model: Model, series: Series) -> str:
         return f"{series.name}: the worst position is not known, for there is no load factor at {names}"
     position = series.worst.load_case.question.place
     where = f"position {position.number} of {position.count}, {standing_words(model, position)}"
-    return f"{series.name}: worst{among} at {where}: load factor {number(factor_of(series.worst))}"
+    return f"{series.name}: worst{among} at {where}: load factor {number(figure_of(series.worst))}"
 
 
 def standing_words(model: Model, position: TravelPosition) -> str:
@@ -170,7 +170,7 @@ def standing_words(model: Model, position: TravelPosition) -> str:
 
 def spread_over_positions(series: Series) -> str:
     """At how many positions the load brings the structure down, and between which load factors."""
-    factors = np.array([factor_of(case) for case in series.cases])
+    factors = np.array([figure_of(case) for case in series.cases])
     finite, count = factors[np.isfinite(factors)], len(factors)
     ends = f", at load factors from {number(finite.min())} to {number(finite.max())}" if len(finite) else ""
     words = f"{series.name}: it brings the structure down at {len(finite)} of {counted(count, 'position')}{ends}"
@@ -194,5 +194,5 @@ def _row(model: Model, series: Series, case: CaseResult) -> list[str]:
         vector(position.point),
         model.blocks.name(int(position.blocks[0])) if position.blocks[0] >= 0 else "-",
         _acting(position),
-        "any multiple" if np.isinf(factor_of(case)) else number(factor_of(case)),
+        "any multiple" if np.isinf(figure_of(case)) else number(figure_of(case)),
     ]

@@ -11,11 +11,12 @@ from mbla.arrays import FloatArray
 from mbla.results.listing.answers import standing_words
 from mbla.results.listing.sections.pushover import curve_words
 from mbla.results.listing.text import number
+from mbla.results.outcome import figure_of
 from mbla.results.pictures.diagrams import dress, open_diagrams
 from mbla.results.pictures.options import PictureOptions
 from mbla.results.pictures.page import BLUE, GHOST, GREEN, INK, ORANGE, PURPLE, VERMILION, WARNING, Page
 from mbla.results.pictures.scene import PictureScene
-from mbla.results.series import Series, factor_of
+from mbla.results.series import Series
 from mbla.solution.solution import Status
 from mbla.solution.thresholds import SOLVED_RESIDUAL
 
@@ -165,11 +166,11 @@ def draw_series(path: Path, scene: PictureScene, series: Series, options: Pictur
     Positions without a result are crosses at the foot, those that no load brings down arrows at the top.
     """
     place = np.array([case.load_case.question.place.distance for case in series.cases])
-    values = np.array([factor_of(case) for case in series.cases])
+    values = np.array([figure_of(case) for case in series.cases])
     sure = np.array([case.status is Status.SOLVED for case in series.cases])
     words = [scene.words_of("model")[0], f"load case {series.name}: load factor over {len(place)} positions"]
     if series.worst is not None:
-        at, worst = series.worst.load_case.question.place, factor_of(series.worst)
+        at, worst = series.worst.load_case.question.place, figure_of(series.worst)
         words.append(f"worst at position {at.number}, {standing_words(scene.model, at)}: {number(worst)}")
     missing = int(np.isnan(values).sum())
     mark = f"NOT VERIFIED: {missing} of {len(place)} positions without a result" if missing else ""

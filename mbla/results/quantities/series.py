@@ -7,9 +7,10 @@ from dataclasses import dataclass
 
 from mbla.model.model import Model
 from mbla.questions.travel_position import TravelPosition
+from mbla.results.outcome import figure_of
 from mbla.results.quantities.group import Field, Group
 from mbla.results.results import CaseResult, Results
-from mbla.results.series import Series, factor_of, series_of
+from mbla.results.series import Series, series_of
 
 
 @dataclass(frozen=True)
@@ -75,7 +76,7 @@ POSITIONS.of(lambda position: position.case).fields(CaseResult, status=Field("st
 @POSITIONS.quantity(rule="open")
 def load_factor(position: Position) -> float:
     """Load factor; inf: no multiple brings anything down; none: no result."""
-    return factor_of(position.case)
+    return figure_of(position.case)
 
 
 @POSITIONS.quantity()

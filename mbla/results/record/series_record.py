@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 from mbla.arrays import FloatArray
 from mbla.model.model import Model
-from mbla.results.force_range import ForceRange, end_value
-from mbla.results.outcome import answer_bounds
+from mbla.results.force_range import ForceRange
+from mbla.results.outcome import answer_bounds, figure_of
 from mbla.results.quantities import series as quantities
 from mbla.results.quantities.group import Field
 from mbla.results.quantities.series import Position
@@ -121,7 +121,7 @@ END.fields(CaseResult, status=Field("status"))
 @END.key(unit="force")
 def value(case: CaseResult) -> float | None:
     """The force; null where there is none, and where it has no limit."""
-    return end_value(case)
+    return figure_of(case)
 
 
 @END.key(unit="force")

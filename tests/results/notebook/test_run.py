@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 
 from mbla.errors import UsageError
-from mbla.questions.travel import Travel
 from mbla.results.notebook.run import Run
 from mbla.results.results import Results
 from mbla.solution.solution import Status
@@ -58,7 +57,7 @@ def travelling(factors: list[float], status: Status = Status.SOLVED) -> Results:
     assert case.solution.mechanics is not None
     for number, factor in enumerate(factors, start=1):
         travel = standing_at(number, len(factors), np.zeros(3), 0.0)
-        load_case = replace(case.load_case, name=f"train_{number}", question=Travel(travel))
+        load_case = replace(case.load_case, name=f"train_{number}", question=travel)
         solution = replace(case.solution, mechanics=replace(case.solution.mechanics, load_factor=factor))
         cases.append(replace(case, load_case=load_case, solution=solution, status=Status.SOLVED))
     cases[-1] = replace(cases[-1], status=status)

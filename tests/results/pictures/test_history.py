@@ -5,7 +5,6 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 
-from mbla.questions.travel import Travel
 from mbla.results.pictures.history import _keep_to_the_middle, draw_curve, draw_history, draw_series
 from mbla.results.pictures.options import PictureOptions
 from mbla.results.pictures.scene import scene_of
@@ -84,7 +83,7 @@ def test_series_shows_what_is_known_of_every_position(
         travel = standing_at(i + 1, len(statuses), np.array([float(i), 0, 0]), 1.5 * i)
         found = replace(mechanics, load_factor=0.4 if i + 1 == len(statuses) else 0.5)
         solution = replace(case.solution, mechanics=found, flow_rule="associative")
-        load_case = replace(case.load_case, name=f"train@{i + 1}", question=Travel(travel))
+        load_case = replace(case.load_case, name=f"train@{i + 1}", question=travel)
         cases.append(replace(case, load_case=load_case, solution=solution, status=status))
     results = replace(results, cases=tuple(cases))
     scene = scene_of(results, cases[0], PictureOptions(), "history")

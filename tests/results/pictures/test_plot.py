@@ -11,7 +11,6 @@ import pytest
 from mbla.cli import main
 from mbla.deck.content import OutputSection
 from mbla.errors import UsageError
-from mbla.questions.travel import Travel
 from mbla.results.hdf5.result_file import write_results_hdf5
 from mbla.results.pictures.animation import displacements
 from mbla.results.pictures.options import VIEWS, PictureOptions
@@ -153,7 +152,7 @@ def test_positions_of_a_travelling_load_have_a_history_of_their_own(tmp_path: Pa
     cases = []
     for position in (1, 2):
         travel = standing_at(position, 2, np.array([1.0 * position, 0, 0]), 1.5 * position)
-        load_case = replace(results.cases[0].load_case, name=f"train@{position}", question=Travel(travel))
+        load_case = replace(results.cases[0].load_case, name=f"train@{position}", question=travel)
         cases.append(replace(results.cases[0], load_case=load_case))
     travelled = replace(results, cases=tuple(cases))
     options = PictureOptions(kinds=("history",), format="svg", case="train")

@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 
 from mbla.errors import UsageError
-from mbla.questions.travel import Travel
 from mbla.results.pictures.options import PictureOptions
 from mbla.results.report.figures import case_figures, model_figures, series_figures
 from mbla.results.results import CaseResult, Results
@@ -96,7 +95,7 @@ def test_several_positions_of_a_travelling_load_have_a_diagram(positions: int) -
     results = tower_results()
     cases = []
     for i in range(positions):
-        travel = Travel(standing_at(i + 1, positions, np.array([1.0 * i, 0, 0]), 1.5 * i))
+        travel = standing_at(i + 1, positions, np.array([1.0 * i, 0, 0]), 1.5 * i)
         load_case = replace(results.cases[0].load_case, name=f"train@{i}", question=travel)
         cases.append(replace(results.cases[0], load_case=load_case))
     results = replace(results, cases=tuple(cases))

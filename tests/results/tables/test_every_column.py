@@ -12,7 +12,6 @@ import pytest
 
 from mbla.deck.sections.selectors import POSITIONS
 from mbla.questions.reaction import Reaction
-from mbla.questions.travel import Travel
 from mbla.results.results import CaseResult, Results
 from mbla.results.tables.tables import tables_of
 from mbla.run import RunOptions, run
@@ -262,8 +261,8 @@ def test_series_and_reactions_of_settlements(every: dict[str, Results]) -> None:
     travelling = tuple(
         replace(
             case,
-            load_case=replace(case.load_case, name=f"train_{p.number}", question=Travel(p)),
-            solution=replace(case.solution, mechanics=replace(tower_mechanics(), load_factor=1.0 / p.number)),
+            load_case=replace(case.load_case, name=f"train_{p.place.number}", question=p),
+            solution=replace(case.solution, mechanics=replace(tower_mechanics(), load_factor=1.0 / p.place.number)),
         )
         for p in positions
     )

@@ -9,7 +9,6 @@ import pytest
 
 from mbla.model.applied_load import AppliedLoad, without_forces
 from mbla.questions.reaction import Reaction, Settlement
-from mbla.questions.travel import Travel
 from mbla.questions.travel_position import NOWHERE, TravelPosition
 from mbla.results.pictures.marks.loads import MANY, arrow_steps, live_marks, marks_of_load, shown_loads
 from mbla.results.pictures.marks.marks import Mark
@@ -133,8 +132,8 @@ def test_positions_of_a_travelling_load_are_one_way_and_the_arrows_of_the_worst(
     for number, factor in ((1, 0.7), (2, 0.5), (3, 0.6)):
         case = results.cases[0]
         travel = standing_at(number, 3, np.array([0.2 * number, 0.5, 4.0]), 0.2 * number)
-        loads = wrench([0, 0, -1], travel.points[0].tolist(), 1)
-        named = replace(case.load_case, name=f"train@{number}", question=Travel(travel))
+        loads = wrench([0, 0, -1], travel.place.points[0].tolist(), 1)
+        named = replace(case.load_case, name=f"train@{number}", question=travel)
         load_case = replace(named, live_load=loads, live=(without_forces("f"),))
         solution = replace(case.solution, mechanics=replace(own, load_factor=factor))
         cases.append(replace(case, load_case=load_case, solution=solution))
