@@ -189,3 +189,13 @@ def test_an_angle_that_the_load_leads_to_counts_at_one() -> None:
     assert math.isnan(led.value(0.99))
     assert led.factor_words(0.5, UNITS) == "0.5 times the change of the loads by the tilt"
     assert Angle(table(0.0)).value(0.0) == 0.0
+
+
+def test_loads_of_a_table_on_the_way_to_an_angle() -> None:
+    """They change as they do after a right angle more."""
+    draw = np.random.default_rng(3)
+    tilt = table(30.0).with_loads(lambda loads: draw.normal(size=loads.shape))
+    for angle in (0.0, 0.3, 2.0):
+        dead, live, change = Angle(tilt).loads_at(LOADS, LOADS, angle)
+        assert dead + angle * live == pytest.approx(tilt.loads_at(np.degrees(angle)))
+        assert change == pytest.approx(tilt.loads_at(np.degrees(angle) + 90.0) - tilt.fixed)
