@@ -26,7 +26,9 @@ STANDING = Object[Scene](
     STORED_BY_PATH["cases/*/standing/verdict"],
     owner=lambda scene: None if scene.solved.solution.standing is None else scene,
 )
-SOLVER = Object[Scene]()
+SOLVER = Object[Scene](
+    replace(STORED_BY_PATH["cases/*/solver"], name="asked", words="as in analysis.solver", open=True)
+)
 TIME = Object[Scene](
     replace(COLUMN["seconds"], name="total", open=True), replace(COLUMN["solver_seconds"], name="solver", open=True)
 )
@@ -89,12 +91,6 @@ def block(scene: Scene) -> str | None:
 
 
 STANDING.quantities.append(STORED_BY_PATH["cases/*/standing/reason"])
-
-
-@SOLVER.key()
-def asked(scene: Scene) -> str | None:
-    """As in analysis.solver."""
-    return scene.solved.solution.solver or None
 
 
 @SOLVER.key("a solver")
