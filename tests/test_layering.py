@@ -140,7 +140,7 @@ def test_stages_import_from_the_left_and_each_library_has_one_door() -> None:
 
 
 def importers() -> dict[str, list[str]]:
-    """Files that import each library at run time, by the name that it is installed by (pydantic_core: pydantic)."""
+    """Files that import each library at run time, by the name that it is installed by; pydantic_core is pydantic."""
     found: dict[str, set[str]] = {}
     for path in FILES:
         for name, at_run_time in imports_of(path).items():

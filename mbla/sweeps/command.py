@@ -143,7 +143,8 @@ def prepare(sweep: Sweep, options: SweepOptions) -> Prepared:
     )
     further = options.further | {name for name in FURTHER if getattr(content.output, name)}
     study_of = partial(_fragility, content.fragility)
-    return Prepared(sweep.path.name, content.deck, content.title, base.deck, design, plan, study_of, further)
+    name = sweep.path.name
+    return Prepared(name, content.deck, content.title or name, base.deck, design, plan, study_of, further)
 
 
 def _fragility(asked: FragilitySection | None, table: SweepTable) -> StudyResult:

@@ -28,6 +28,7 @@ def test_the_table_and_its_files(sweep: Path, capfd: pytest.CaptureFixture[str])
     assert isinstance(table, mbla.SweepTable)
     assert table["load_factor"] == pytest.approx([0.3, 0.4], rel=1e-6)
     assert told == [(0, 2), (1, 2), (2, 2)]
+    assert table.title == "friction.yaml", "the sweep has none of its own"
     sweep.write_text(SWEEP.replace("0.4]", "0.4, 0.2]"), encoding="utf-8")
     told.clear()
     more = mbla.sweep(sweep, output=sweep.parent / "out", resume=True, progress=lambda *counts: told.append(counts))

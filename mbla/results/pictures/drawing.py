@@ -25,6 +25,7 @@ from mbla.results.pictures.page import (
     GHOST,
     GROUPS,
     GUIDED_BLOCK,
+    INK,
     REST,
     SLAB,
     SLOW,
@@ -36,7 +37,7 @@ from mbla.results.pictures.page import (
     group_colours,
     open_page,
 )
-from mbla.results.pictures.plane import PALE, Flat, draw_flat, flat_of
+from mbla.results.pictures.plane import DASHES, HATCH, PALE, Flat, draw_flat, flat_of
 from mbla.results.pictures.renderer import image_of
 from mbla.results.pictures.scene import PictureScene, named_groups, part_colours
 
@@ -54,15 +55,17 @@ SHARPNESS = {"png": 1, "svg": 2, "pdf": 2}
 class Drawing:
     """A structure with its marks, before it moves.
 
-    flat    : the plane that it lies in; None in space
-    colours : (n_blocks) of the blocks
-    legend  : names and colours of what is no mark
+    flat     : the plane that it lies in; None in space
+    colours  : (n_blocks) of the blocks
+    legend   : names and colours of what is no mark
+    outlined : edges are drawn where blocks were before they moved
     """
 
     flat: Flat | None
     colours: list[str]
     legend: list[tuple[str, str]]
     marks: list[Mark]
+    outlined: bool
 
 
 def drawing_of(scene: PictureScene, kind: str, view: tuple[float, float] | None = None) -> Drawing:
@@ -86,7 +89,8 @@ def drawing_of(scene: PictureScene, kind: str, view: tuple[float, float] | None 
         own, marks = part_colours(scene, GROUPS), joint_marks(scene, flat=flat is not None)
         legend = _parts(scene)
     colours = [support or colour for support, colour in zip(held, own, strict=True)]
-    return Drawing(flat, colours, legend + supports, marks + tie_marks(scene, at_work=kind != "model") + loads)
+    marks = [*marks, *tie_marks(scene, at_work=kind != "model"), *loads]
+    return Drawing(flat, colours, legend + supports, marks, bool(scene.displaced.any()))
 
 
 def _parts(scene: PictureScene) -> list[tuple[str, str]]:
@@ -98,7 +102,7 @@ def _parts(scene: PictureScene) -> list[tuple[str, str]]:
     legend += [("moves less", SLOW)] * bool(scene.slow.any())
     if count <= len(GROUPS):
         legend += [(f"part {part + 1}", GROUPS[part]) for part in range(count)]
-    return [*legend, ("before it moves", GHOST)]
+    return legend
 
 
 def draw_picture(path: Path, scene: PictureScene, kind: str, options: PictureOptions) -> None:
@@ -166,13 +170,20 @@ def ghost_edges(scene: PictureScene) -> IntArray:
 
 
 def _handles(page: Page, drawing: Drawing) -> list[Any]:
-    """Entries of the legend: boxes for blocks, lines, arrows and dots for marks of a name."""
+    """Entries of the legend, as what they name is drawn: boxes for blocks and areas, lines, arrows and dots."""
     boxes = [page.box(name, facecolor=colour, edgecolor=GHOST, linewidth=0.5) for name, colour in drawing.legend]
     marks = {}
+    if drawing.outlined:
+        look = {"linestyle": DASHES if drawing.flat else "-", "linewidth": page.scale}
+        marks["before it moves"] = page.line("before it moves", color=GHOST, **look)
     for mark in drawing.marks:
         label = fill(mark.name, COLUMNS, max_lines=LINES, placeholder=" ...")
         if mark.pale:
             boxes.append(page.box(label, facecolor=mark.colour, alpha=PALE, edgecolor=GHOST, linewidth=0.5))
+            continue
+        if len(mark.faces):
+            hatch = {"hatch": HATCH} if drawing.flat else {}
+            boxes.append(page.box(label, facecolor=mark.colour, edgecolor=INK, linewidth=0.5, **hatch))
             continue
         looks = {"marker": ">" if mark.arrows else "o", "markersize": 8 * page.scale}
         if (mark.pairs[:, 0] == mark.pairs[:, 1]).all():

@@ -34,6 +34,8 @@ MANY = 300
 """blocks from which outlines are thinner"""
 THICK, FINEST, DOT = 3.0, 0.7, 9.0
 """width of lines, of the finest, and diameter of dots, points"""
+HATCH, DASHES = "xxxx", (0, (4, 3))
+"""of areas where joints open, and of the outlines of blocks before they move"""
 PALE = 0.3
 """strength of areas that are seen through"""
 END_ON = 2e-3
@@ -159,7 +161,7 @@ def draw_flat(page: Page, axes: Any, camera: Camera, scene: PictureScene, drawin
     edges = seen_edges(blocks, flat)
     _lines(page, axes, now[edges], 1.0 if len(blocks) < MANY else 0.6, INK, zorder=2)
     moves = scene.displaced[blocks.block_of_vertex[edges[:, 0]]]
-    dashes = {"linestyles": [(0, (4, 3))], "alpha": 0.8, "zorder": 2.5}
+    dashes = {"linestyles": [DASHES], "alpha": 0.8, "zorder": 2.5}
     _lines(page, axes, built[edges[moves]], 0.8, GHOST, **dashes)
     for mark in drawing.marks:
         _draw_mark(page, axes, mark, camera.project(moved(mark, scene.model, scene.motion)))
@@ -168,7 +170,7 @@ def draw_flat(page: Page, axes: Any, camera: Camera, scene: PictureScene, drawin
 def _draw_mark(page: Page, axes: Any, mark: Mark, points: FloatArray) -> None:
     """Areas, then segments, arrows, and dots where segments have no length on the page; points (n, 2)."""
     areas = [points[face] for face in mark.faces]
-    look = {"edgecolors": INK, "hatch": "xxxx", "linewidths": 0.6, "zorder": 3.0}
+    look = {"edgecolors": INK, "hatch": HATCH, "linewidths": 0.6, "zorder": 3.0}
     if mark.pale:
         areas, look = _united(areas), {"edgecolors": "none", "alpha": PALE, "zorder": 0.7}
     _areas(page, axes, areas, facecolors=mark.colour, **look)

@@ -204,7 +204,7 @@ class SweepContent(Section):
     mbla_sweep: Annotated[Literal[1], BeforeValidator(no_boolean)] = Field(
         description="version of the format of sweep files"
     )
-    title: Line = Field("", description="shown in tables and pictures")
+    title: Line = Field("", description="shown in tables and pictures; without one the name of the file")
     deck: str = Field(min_length=1, description="base deck, relative to this file")
     cases: Annotated[list[Name], Field(min_length=1)] | None = Field(
         None, description="load cases to solve; default: all of the deck"

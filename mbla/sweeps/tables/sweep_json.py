@@ -165,7 +165,7 @@ SWEEP_RECORD: tuple[Key, ...] = (
     Key("sweep", "string", "file name of the sweep file"),
     Key("version", "integer", "version of this record and of sweep.h5; a reader checks it first"),
     Key("deck", "string", "base deck, as the sweep file names it"),
-    Key("title", "string", "title of the sweep"),
+    Key("title", "string", "title of the sweep; without one the name of its file"),
     Key("created", "string", "date of the run, UTC, ISO 8601"),
     Key("exit_code", "integer", "exit status of the sweep: 0, or 8 where points failed"),
     Key("points", "object", "counts of points"),

@@ -13,10 +13,11 @@ import pytest
 from mbla.arrays import FloatArray
 from mbla.assembly.assembly import Assembly
 from mbla.results.pictures.camera import axes_of, fitted, view_of_case
-from mbla.results.pictures.drawing import drawing_of
+from mbla.results.pictures.drawing import draw_on, drawing_of, extent_of
 from mbla.results.pictures.marks.marks import segments
 from mbla.results.pictures.options import VIEWS, PictureOptions
-from mbla.results.pictures.page import GROUPS, HINGE, OPEN, SLAB, WARNING, group_colours, rgb, round_length
+from mbla.results.pictures.page import GROUPS, HINGE, OPEN, SLAB, WARNING, group_colours, open_page, rgb, round_length
+from mbla.results.pictures.plane import HATCH
 from mbla.results.pictures.plot import draw_picture
 from mbla.results.pictures.renderer import SHINE, can_draw, image_of
 from mbla.results.pictures.scene import MOST_GROUPS, PictureScene, scene_of
@@ -72,6 +73,20 @@ def test_a_plane_figure_is_made_of_lines_and_names_what_it_shows(tmp_path: Path,
         assert OPEN.lower() in svg.lower()
     if kind == "forces":
         assert any("largest 11.1803 N" in text for text in texts), "weight 10 N and push 5 N"
+
+
+@pytest.mark.parametrize("view", [None, pytest.param((30.0, 20.0), marks=needs_opengl)])
+def test_the_legend_shows_things_as_they_are_drawn(tmp_path: Path, view: tuple[float, float] | None) -> None:
+    """Dashed outlines and hatched areas in the plane, lines and plain areas in space."""
+    seen = scene(view=view)
+    with open_page(tmp_path / "figure.svg", PictureOptions(view=view)) as page:
+        drawing = drawing_of(seen, "mechanism", view)
+        draw_on(page, seen, drawing, "mechanism", extent_of([seen], drawing))
+        (legend,) = page.figure.legends
+        texts = [text.get_text() for text in legend.get_texts()]
+        shown = dict(zip(texts, legend.legend_handles, strict=True))
+    assert shown["before it moves"].is_dashed() == (view is None)
+    assert shown["opening"].get_hatch() == (HATCH if view is None else None)
 
 
 def test_nothing_moves_at_scale_zero(tmp_path: Path) -> None:
