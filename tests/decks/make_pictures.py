@@ -22,11 +22,17 @@ from mbla.results.hdf5.result_file import read_results_hdf5
 from mbla.results.pictures.options import PictureOptions
 from mbla.results.pictures.page import (
     CASES,
+    FIXED_BLOCK,
+    GROUPS,
+    GUIDED_BLOCK,
     HINGE,
     INK,
     LIVE_LOAD,
     OPEN,
+    REST,
+    SLAB,
     SLIDE,
+    SLOW,
     VERMILION,
     WARNING,
     Page,
@@ -51,6 +57,8 @@ SMALLER = ("--size", "1200x750")
 """for pictures in space, whose files are large"""
 SHADES = (0.45, 0.6, 0.75, 0.9, 1.0)
 """of colours that mean something, as the light makes them"""
+IN_LEGENDS = (*GROUPS, SLOW, REST, FIXED_BLOCK, GUIDED_BLOCK, SLAB)
+"""colours of blocks, in legends as they are"""
 NEARLY_WHITE = 247
 """of a palette: such colours are white, as the background is"""
 
@@ -150,6 +158,7 @@ def with_palette(path: Path) -> Path:
         meaning = (HINGE, SLIDE, OPEN, LIVE_LOAD, WARNING, *CASES)
         shades = [255, 255, 255]
         shades += [round(255 * light * part) for name in meaning for light in SHADES for part in rgb(name)]
+        shades += [round(255 * part) for name in IN_LEGENDS for part in rgb(name)]
         with Image.open(path) as image:
             picture = image.convert("RGB")
         common = np.array(picture.quantize(256 - len(shades) // 3).getpalette(), dtype=np.uint8).reshape(-1, 3)
