@@ -176,6 +176,8 @@ class _SmoothedPath:
         return breaking, whole
 
     def _share_until_break(self, gone: PeakStep) -> tuple[float, IntArray]:
+        if not self.joints.brittle.any():
+            return np.inf, np.zeros(0, dtype=np.int64)
         opened = gone.step.length * self.joints.velocities(gone.state.u)[0]
         return share_until_break(self.joints, self.memory, opened)
 

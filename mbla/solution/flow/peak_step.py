@@ -54,7 +54,7 @@ class PeakStep:
 
 def with_openings(step: JointStep, state: StepState, sigma: float) -> StepState:
     """The state with the openings that its motion has, where these are not nearly closed, and as much flow."""
-    joints, opening = step.joints, step.openings(state)
+    joints, opening = step.joints, step.openings(state, step.joints.velocities(state.u))
     floor = OF_FLOOR * sigma / joints.margin(state.normal)
     flows = zip(joints.laws, state.interfaces, step.motions(state.u), strict=True)
     interfaces = tuple(law.following(one, state.normal, motion) for law, one, motion in flows)

@@ -166,8 +166,10 @@ class ElasticJoints:
 
     def carried(self, normal: FloatArray, shear: FloatArray, resultants: Sequence[FloatArray] = ()) -> FloatArray:
         """A x, (n_rows,): what contact forces, and resultants of interfaces, do to the blocks and interfaces."""
-        forces = np.hstack([np.vstack([normal[None], shear]), *resultants]).T.ravel()
-        return np.asarray(self.matrix.program.equilibrium_matrix @ forces)
+        forces = np.empty((len(normal), 1 + len(shear)))
+        forces[:, 0], forces[:, 1:] = normal, shear.T
+        every = np.concatenate([forces, *(one.T for one in resultants)]) if resultants else forces
+        return np.asarray(self.matrix.program.equilibrium_matrix @ every.ravel())
 
     def unbalanced(self, state: StepState) -> FloatArray:
         """Forces that a state leaves without balance, (n_rows,)."""

@@ -44,9 +44,9 @@ class JointStep:
         work = float(self.joints.program.live_load @ state.u) - self.work if self.driven else 0.0
         return np.append(self.joints.unbalanced(state) - self.held * state.u, work)
 
-    def openings(self, state: StepState) -> FloatArray:
-        """Openings y of a state by its motion and its normal forces, (n_points,)."""
-        opening = self.joints.velocities(state.u)[0] + self.normal_compliance * (state.normal - self.memory.normal)
+    def openings(self, state: StepState, velocities: FloatArray) -> FloatArray:
+        """Openings y of a state by the velocities of its contacts and its normal forces, (n_points,)."""
+        opening = velocities[0] + self.normal_compliance * (state.normal - self.memory.normal)
         if self.joints.dilates:
             opening = opening - self.joints.dilatancy * state.speed
         opening[self.joints.crushable] += state.crushing
@@ -127,12 +127,12 @@ class Residual:
 
 def residual_of(step: JointStep, state: StepState) -> Residual:
     """What a state leaves of the equations of a step."""
-    sheared = step.shear_compliance * (state.shear - step.memory.shear)
+    v, sheared = step.joints.velocities(state.u), step.shear_compliance * (state.shear - step.memory.shear)
     flows = zip(step.joints.laws, state.interfaces, step.motions(state.u), strict=True)
     return Residual(
         balance=step.balance(state),
-        normal=step.openings(state) - state.opening,
-        shear=step.joints.velocities(state.u)[1:] + sheared - state.slip,
+        normal=step.openings(state, v) - state.opening,
+        shear=v[1:] + sheared - state.slip,
         products=products_of(step.joints, state),
         interfaces=tuple(law.residual(one, state.normal, motion) for law, one, motion in flows),
     )
