@@ -19,7 +19,7 @@ import numpy as np
 import scipy.sparse as sp
 from scipy.sparse.csgraph import connected_components
 
-from mbla.arrays import BoolArray, FloatArray, IntArray
+from mbla.arrays import BoolArray, FloatArray, IntArray, starts
 from mbla.model.solids.ragged import items_of_rows
 from mbla.program.resultants.stress_blocks import Pieces
 
@@ -81,7 +81,7 @@ class Conditions:
     def only(self, unknowns: BoolArray) -> tuple[Conditions, IntArray]:
         """Those with some of the unknowns, (n_unknowns,), each with all of its own; rows of their cones, (n_rows,)."""
         cones = np.flatnonzero(self._in_cones[:, unknowns].sum(axis=1))
-        rows = items_of_rows(np.concatenate([[0], np.cumsum(self.cone_sizes)]), cones)
+        rows = items_of_rows(starts(self.cone_sizes), cones)
         by_torsion, by_crushing = (sp.csr_array(of_kind[:, unknowns]) for of_kind in self.motions)
         chosen = Conditions(
             velocities=sp.csr_array(self.velocities[:, unknowns]),
@@ -120,7 +120,7 @@ def joined(parts: Sequence[Conditions]) -> Conditions | None:
         return None
     sizes = np.concatenate([part.cone_sizes for part in parts])
     order = np.argsort(sizes, kind="stable")
-    rows = items_of_rows(np.concatenate([[0], np.cumsum(sizes)]), order)
+    rows = items_of_rows(starts(sizes), order)
     cones = sp.csr_array(sp.block_diag([part.cones for part in parts]))[rows]
     by_torsion, by_crushing = (sp.csr_array(sp.hstack([part.motions[kind] for part in parts])) for kind in (0, 1))
     return Conditions(

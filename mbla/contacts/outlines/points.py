@@ -30,7 +30,7 @@ from mbla.deck.sections.contacts import ContactPoints
 from mbla.errors import Notice
 from mbla.model.solids.convex import convex_loops
 from mbla.model.solids.polygons import polygons_from_rings, triangles
-from mbla.model.solids.ragged import next_item
+from mbla.model.solids.ragged import items_of_rows, next_item
 
 _SEEN = 1e-9
 """Area of the triangle of an edge and the centroid, over that of the interface, from which on it is seen plainly."""
@@ -175,8 +175,7 @@ def in_pieces(corners: Corners, chosen: BoolArray) -> tuple[Corners, IntArray]:
     counts = np.concatenate([np.diff(left.ring_start), np.full(len(row), 3)])
     polygon_of_ring = np.concatenate([left.polygon_of_ring, rows[row]])
     order = np.argsort(polygon_of_ring, kind="stable")
-    begin = starts(counts)[:-1]
-    corner = np.concatenate([begin[ring] + np.arange(counts[ring]) for ring in order.tolist()])
+    corner = items_of_rows(starts(counts), order)
     new_piece = (np.diff(polygon_of_ring[order], prepend=-1) != 0) | divided[polygon_of_ring[order]]
     piece = np.cumsum(new_piece) - 1
     return Corners(points[corner], starts(counts[order]), piece), polygon_of_ring[order][new_piece]

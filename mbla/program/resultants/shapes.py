@@ -193,9 +193,9 @@ class Fan:
     def of(cls, shapes: InterfaceShapes) -> Fan:
         """Fans from the first corner of each outline."""
         counts = np.diff(shapes.start)
-        interface = np.repeat(np.arange(len(counts)), np.maximum(counts - 2, 0))
-        first = shapes.start[interface]
-        place = np.arange(len(interface)) - np.concatenate([[0], np.cumsum(np.maximum(counts - 2, 0))])[interface]
+        start = starts(np.maximum(counts - 2, 0))
+        interface = row_of_item(start)
+        first, place = shapes.start[interface], np.arange(len(interface)) - start[interface]
         corners = np.stack([first, first + place + 1, first + place + 2], axis=1)
         x = shapes.corners[corners]
         one, two = x[:, 1] - x[:, 0], x[:, 2] - x[:, 0]

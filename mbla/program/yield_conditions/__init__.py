@@ -30,7 +30,6 @@ from mbla.program.yield_conditions.tension import TensionCutOff
 class YieldCondition(Protocol):
     """One bound on the force at every contact point; all arrays are (n_points,)."""
 
-    name: ClassVar[str]
     bounds_shear: ClassVar[bool]
 
     @staticmethod

@@ -16,7 +16,6 @@ from mbla.program.yield_conditions.limits import YieldLimits
 class Coulomb:
     """Shear is at most cohesion plus friction coefficient times normal force."""
 
-    name: ClassVar[str] = "coulomb"
     bounds_shear: ClassVar[bool] = True
 
     @staticmethod

@@ -13,7 +13,6 @@ from mbla.program.yield_conditions.limits import YieldLimits
 class Crushing:
     """Compression at a point is limited."""
 
-    name: ClassVar[str] = "crushing"
     bounds_shear: ClassVar[bool] = False
 
     @staticmethod

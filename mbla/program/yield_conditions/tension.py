@@ -13,7 +13,6 @@ from mbla.program.yield_conditions.limits import YieldLimits
 class TensionCutOff:
     """The joint opens when its tensile strength is reached."""
 
-    name: ClassVar[str] = "tension"
     bounds_shear: ClassVar[bool] = False
 
     @staticmethod

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import scipy.sparse as sp
 
-from mbla.arrays import FloatArray, IntArray
+from mbla.arrays import FloatArray, IntArray, starts
 from mbla.program.kinematic import ConeProgram
 
 LEAST = 1e-13
@@ -36,7 +36,7 @@ class ConeVectors:
 
     def __init__(self, sizes: IntArray) -> None:
         self.sizes = sizes
-        self.start = np.concatenate([[0], np.cumsum(sizes)]).astype(np.int64)
+        self.start = starts(sizes)
         self.head = self.start[:-1]
         self.cone_of_row = np.repeat(np.arange(len(sizes)), sizes)
         self.is_head = np.zeros(self.start[-1], dtype=bool)

@@ -36,7 +36,7 @@ def follow_solved(
     spent = gravity.steps + path.factorizations
     half = path.half if stop is Stop.FAR else None
     curve = tuple(path.steps)
-    return ElasticPath(path.top, half, path.state, stop, curve, measure.displacement, spent, path.halved)
+    return ElasticPath(path.top, half, stop, curve, measure.displacement, spent, path.halved)
 
 
 class _ConvergedPath:

@@ -275,5 +275,5 @@ class _SmoothedPath:
         top = peaks.greatest(onwards=not self.broken, late=stop is Stop.LATE)
         half = peaks.solve(peaks.half) if stop is Stop.FAR and peaks.half is not None else None
         spent = self.factorizations + peaks.spent + self.gravity.steps
-        found = (top, half, self.state, stop, tuple(self.steps), self.unit, spent, self.recentred, tuple(self.broken))
+        found = (top, half, stop, tuple(self.steps), self.unit, spent, self.recentred, tuple(self.broken))
         return ElasticPath(*found)

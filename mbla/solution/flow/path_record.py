@@ -6,7 +6,6 @@ from dataclasses import dataclass
 from enum import StrEnum
 
 from mbla.solution.flow.peak_step import PeakStep
-from mbla.solution.law.elastic_joints import StepState
 
 RISES = 5e-3
 """Share of the load factor gained over the last half of a path, from which it still rises where it ends."""
@@ -62,7 +61,6 @@ class ElasticPath:
     peak         : step of the greatest load factor, solved as far as its misfit says; None where no step
                    counts
     half         : the same up to half of the displacement; None where the path ends before
-    last         : state at the end
     stop         : why it ended
     steps        : the curve
     unit         : of displacement, for a live work of 1 in units of the program
@@ -73,7 +71,6 @@ class ElasticPath:
 
     peak: PeakStep | None
     half: PeakStep | None
-    last: StepState
     stop: Stop
     steps: tuple[PathStep, ...]
     unit: float

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.sparse as sp
 
-from mbla.arrays import FloatArray, IntArray, distinct
+from mbla.arrays import FloatArray, IntArray, distinct, starts
 from mbla.solution.linear_algebra import SymmetricPattern
 
 
@@ -136,8 +136,7 @@ def by_group(members: IntArray, group: IntArray, n_groups: int) -> tuple[IntArra
     """
     here = group >= 0
     order = np.argsort(group[here], kind="stable")
-    counts = np.bincount(group[here], minlength=n_groups)
-    return members[here][order], np.concatenate([[0], np.cumsum(counts)])
+    return members[here][order], starts(np.bincount(group[here], minlength=n_groups))
 
 
 def taken(part: tuple[IntArray, IntArray], groups: IntArray) -> IntArray:

@@ -9,7 +9,7 @@ import numpy as np
 import scipy.sparse as sp
 from numpy.typing import NDArray
 
-from mbla.arrays import FloatArray, IntArray
+from mbla.arrays import FloatArray, IntArray, starts
 
 IndexArray: TypeAlias = NDArray[np.int32]
 
@@ -48,5 +48,5 @@ def lower_triangle(matrix: sp.csc_array) -> tuple[SymmetricPattern, FloatArray]:
     n = int(held.shape[0])
     columns = np.repeat(np.arange(n), np.diff(held.indptr))
     lower = held.indices >= columns
-    pointers = np.concatenate([[0], np.cumsum(np.bincount(columns[lower], minlength=n))]).astype(np.int32)
+    pointers = starts(np.bincount(columns[lower], minlength=n)).astype(np.int32)
     return SymmetricPattern(n, held.indices[lower].astype(np.int32), pointers), held.data[lower]

@@ -23,6 +23,7 @@ import qdldl
 import scipy.sparse as sp
 
 from mbla.arrays import FloatArray, IntArray
+from mbla.model.solids.ragged import numbered
 from mbla.solution.linear_algebra.pattern import SymmetricPattern
 
 SEED = 7
@@ -128,7 +129,4 @@ def sets_of_equal_rows(n: int, row: IntArray, column: IntArray) -> IntArray:
     numbers = np.random.default_rng(SEED).integers(0, 2**64, n, dtype=np.uint64)
     sums = np.zeros(n, dtype=np.uint64)
     np.add.at(sums, row, numbers[column])  # wraps around, as it may
-    _, first, set_of = np.unique(sums, return_index=True, return_inverse=True)
-    rank = np.empty(len(first), dtype=np.int64)
-    rank[np.argsort(first)] = np.arange(len(first))  # numbered as they come: neighbours stay neighbours
-    return rank[set_of.reshape(-1)]
+    return numbered(sums.view(np.int64))[0]  # as they come: neighbours stay neighbours

@@ -23,7 +23,7 @@ little, and comes back to it at another, lower mechanism.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -51,8 +51,6 @@ class Alternation:
     records : a line for every program
     work, programs : iterations so far, and programs
     late    : whether one of them ran into the time limit
-    ended   : the last program that had no solution
-    given   : (n_points,) normal forces of the last motion program
     """
 
     program: Program
@@ -63,8 +61,6 @@ class Alternation:
     work: int = 0
     programs: int = 0
     late: bool = False
-    ended: ConeSolution | None = None
-    given: FloatArray = field(default_factory=lambda: np.zeros(0))
 
     @cached_property
     def _forces(self) -> tuple[KinematicForm, ConeSolver]:
@@ -109,7 +105,6 @@ class Alternation:
 
     def motion_for(self, normal: FloatArray) -> FloatArray | None:
         """Velocities, (n_rows,), against the friction of normal forces, (n_points,); None without a solution."""
-        self.given = normal
         form, solver = self._motion
         solver.update(cost=self.motion_cost(form, normal))
         solution = self._solved(solver, "motion")
@@ -147,10 +142,7 @@ class Alternation:
         self.late = self.late or solution.status is Status.TIME_LIMIT
         value = -float(solution.z[0]) * live if solution.usable else np.nan
         self.records.append(solution.record(number, kind, value))
-        if solution.usable:
-            return solution
-        self.ended = solution
-        return None
+        return solution if solution.usable else None
 
     def _lagged(self, normal: FloatArray) -> YieldLimits:
         """Friction beyond the dilatancy as given normal forces leave it, (n_points,)."""

@@ -13,6 +13,7 @@ import scipy.sparse as sp
 
 from mbla.arrays import FloatArray, IntArray
 from mbla.contacts.carried import Placed
+from mbla.model.solids.ragged import ranges
 from mbla.model.ties.ties import Ties
 from mbla.program.program import Program
 from mbla.solution.pushover.pose.ties_at_pose import TiesAtPose
@@ -88,7 +89,7 @@ class MatrixAtPose:
         of_row, of_column = np.diff(velocities.indptr)[row], np.diff(forces.indptr)[column]
         size = of_row * of_column
         entry = np.repeat(np.arange(len(row)), size)
-        within = np.arange(len(entry)) - np.repeat(np.cumsum(size) - size, size)
+        within = ranges(np.zeros_like(size), size)
         first = velocities.indptr[row[entry]] + within // of_column[entry]
         second = forces.indptr[column[entry]] + within % of_column[entry]
         value = velocities.data[first] * forces.data[second]
