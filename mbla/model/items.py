@@ -60,22 +60,19 @@ def collect_items(deck: Deck, faults: list[Fault]) -> CollectedItems:
     Raises DeckError with all faults, where no item can be built; where all of them together make too much.
     """
     _refuse_amounts(deck)
-    placed: list[tuple[int, str, ItemPart]] = []
+    parts: list[ItemPart] = []
+    numbers: list[int] = []
     grounds: list[Ground] = []
     surfaces: list[tuple[KeyPath, str, tuple[GroundSurface, ...]]] = []
     notices: list[Notice] = []
     partial: set[str] = set()
-    n_blocks = 0
     for number, block_item in enumerate(deck.content.blocks):
         kind, item = block_item.facts, block_item.item
         path: KeyPath = ("blocks", number, kind.name)
         group = item.group or kind.name
+        n_blocks = sum(len(part.polyhedra) for part in parts)
         try:
-            generated = _generate(deck, block_item, path)
-            copies = repetitions(item.repeat)
-            made = n_blocks + len(copies) * sum(len(part.polyhedra) for part in generated.parts)
-            if made > MOST:
-                raise ItemRefused(Finding("too-many-units", f"makes {too_many(made)}"))
+            copies = _copies(deck, block_item, path, n_blocks)
         except (ItemRefused, DeckError) as refused:
             if isinstance(refused, DeckError):
                 faults += refused.faults
@@ -83,41 +80,60 @@ def collect_items(deck: Deck, faults: list[Fault]) -> CollectedItems:
                 faults += [deck.fault_at(*finding.below(*path)) for finding in refused.findings]
             partial |= {group, *(group + side.suffix for side in kind.groups)}
             continue
-        notices += generated.notices
-        for copy, onwards in enumerate(copies):
-            own = transform_item(generated, onwards) if copy else generated
-            for ground in own.grounds:
-                joint = ground.joint or deck.contacts.joint
-                grounds.append(Ground(ground.point, ground.normal, joint, n_blocks + ground.blocks, "ground"))
+        notices += copies[0].notices
+        for own in copies:
+            for each in own.grounds:
+                joint = each.joint or deck.contacts.joint
+                grounds.append(Ground(each.point, each.normal, joint, n_blocks + each.blocks, "ground"))
             if own.surfaces:
                 law = getattr(item, "joint", None) or deck.contacts.joint
                 surfaces.append((path, law, own.surfaces))
-            for part in own.parts:
-                positions = dict(part.labels)
-                if len(copies) > 1:
-                    positions[COPY.name] = np.full(len(part.polyhedra), copy)
-                placed.append((number, group, replace(part, material=part.material or item.material, labels=positions)))
-                n_blocks += len(part.polyhedra)
-    if not placed:
+            parts += [replace(part, suffix=group + part.suffix) for part in own.parts]
+            numbers += [number] * len(own.parts)
+            n_blocks += sum(len(part.polyhedra) for part in own.parts)
+    if not parts:
         raise DeckError(faults)
-    parts = [part for _, _, part in placed]
+    labels = _labels(deck, parts)
     counts = [len(part.polyhedra) for part in parts]
-    groups = tuple(group + part.suffix for _, group, part in placed for _ in range(len(part.polyhedra)))
-    densities = {name: density_of(material, deck.units) for name, material in deck.content.materials.items()}
-    labels = Labels(
-        groups,
-        np.repeat([densities[part.material or ""] for part in parts], counts),
-        join_labels([labels_of(len(part.polyhedra), part.member, part.labels) for part in parts]),
-    )
     return CollectedItems(
         polyhedra=join_polyhedra([part.polyhedra for part in parts]),
         labels=labels,
-        items=np.repeat([number for number, _, _ in placed], counts),
+        items=np.repeat(numbers, counts),
         fixed=np.repeat([part.fixed for part in parts], counts),
         grounds=tuple(_named(ground, labels) for ground in grounds),
         surfaces=tuple(surfaces),
         notices=tuple(notices),
         partial=frozenset(partial),
+    )
+
+
+def _copies(deck: Deck, block_item: BlockItem, path: KeyPath, n_blocks: int) -> list[Generated]:
+    """What an item and its copies make, in the coordinates of the deck; ``n_blocks`` come before them."""
+    generated, item = _generate(deck, block_item, path), block_item.item
+    onwards = repetitions(item.repeat)
+    made = n_blocks + len(onwards) * sum(len(part.polyhedra) for part in generated.parts)
+    if made > MOST:
+        raise ItemRefused(Finding("too-many-units", f"makes {too_many(made)}"))
+    copies = []
+    for copy, transform in enumerate(onwards):
+        own, parts = transform_item(generated, transform) if copy else generated, []
+        for part in own.parts:
+            labels = dict(part.labels)
+            if len(onwards) > 1:
+                labels[COPY.name] = np.full(len(part.polyhedra), copy)
+            parts.append(replace(part, material=part.material or item.material, labels=labels))
+        copies.append(replace(own, parts=tuple(parts)))
+    return copies
+
+
+def _labels(deck: Deck, parts: Sequence[ItemPart]) -> Labels:
+    """Names and densities of the blocks of parts, whose suffix is the name of their group in full."""
+    densities = {name: density_of(material, deck.units) for name, material in deck.content.materials.items()}
+    counts = [len(part.polyhedra) for part in parts]
+    return Labels(
+        tuple(np.repeat(np.array([part.suffix for part in parts], dtype=object), counts).tolist()),
+        np.repeat([densities[part.material or ""] for part in parts], counts),
+        join_labels([labels_of(len(part.polyhedra), part.member, part.labels) for part in parts]),
     )
 
 

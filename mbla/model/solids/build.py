@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, fields, replace
 from functools import cached_property
 
@@ -13,6 +14,7 @@ from mbla.model.solids.blocks import BlockLabels, Blocks
 from mbla.model.solids.defects import (
     Defect,
     Defects,
+    Extents,
     coordinate_defects,
     corner_defects,
     edge_defects,
@@ -120,22 +122,29 @@ def build_blocks(polyhedra: Polyhedra, labels: Labels, tolerance: float) -> Buil
         group_indices=labels.group_indices,
         labels=labels.within,
     )
-    limit = np.maximum(PLANAR * sizes, 8 * extents.rounding)[polyhedra.block_of_face]
-    rough = np.flatnonzero((faces.deviations > limit) & (sizes > 0)[polyhedra.block_of_face])  # others are refused
-    owner = polyhedra.block_of_face[rough]
-    number, share = rough - polyhedra.face_start[owner], faces.deviations[rough] / sizes[owner]
-    fitted = "planar only within the tolerance, each taken as the plane fitted to its corners"
-    split_share = bent.deviations / sizes[bent.blocks]
-    split_words = "not planar and split into triangles"
-    if shared := int((bent.twins >= 0).sum()) // 2:
-        split_words += f", {counted(shared, 'pair')} with the same corners in two blocks alike"
     notices = (
         *_counted("vertices-unused", unused, "vertex", "left out, used by no face,", labels),
         *_counted("faces-turned-outwards", turned_faces, "face", "turned outwards", labels),
-        *_worst("faces-not-quite-planar", owner, number, share, fitted, labels),
-        *_worst("bent-faces-split", bent.blocks, bent.faces, split_share, split_words, labels),
+        *_not_quite_planar(blocks, faces, bent, extents, labels),
     )
     return BuiltBlocks(blocks, notices, tuple(sorted(defects.found, key=lambda defect: defect.block)), bent)
+
+
+def _not_quite_planar(
+    blocks: Blocks, faces: FaceGeometry, bent: BentFaces, extents: Extents, labels: Labels
+) -> Iterator[Notice]:
+    """Remarks on faces that are planar within the tolerance only, and on those that were split."""
+    sizes = blocks.sizes
+    limit = np.maximum(PLANAR * sizes, 8 * extents.rounding)[blocks.block_of_face]
+    rough = np.flatnonzero((faces.deviations > limit) & (sizes > 0)[blocks.block_of_face])  # others are refused
+    owner = blocks.block_of_face[rough]
+    number, share = rough - blocks.face_start[owner], faces.deviations[rough] / sizes[owner]
+    fitted = "planar only within the tolerance, each taken as the plane fitted to its corners"
+    yield from _worst("faces-not-quite-planar", owner, number, share, fitted, labels)
+    words = "not planar and split into triangles"
+    if shared := int((bent.twins >= 0).sum()) // 2:
+        words += f", {counted(shared, 'pair')} with the same corners in two blocks alike"
+    yield from _worst("bent-faces-split", bent.blocks, bent.faces, bent.deviations / sizes[bent.blocks], words, labels)
 
 
 def _allowed(bent: BentFaces, allowed: FloatArray) -> FloatArray:

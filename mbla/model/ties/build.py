@@ -11,7 +11,7 @@ import numpy as np
 from mbla.arrays import BoolArray, starts
 from mbla.deck.section import given
 from mbla.deck.sections.ties import FORMS, Plate, TieSection
-from mbla.errors import KeyPath
+from mbla.errors import Finding, KeyPath
 from mbla.model.selectors import BlockSelection
 from mbla.model.ties.lines import TieLine, TieSite, build_lines
 from mbla.model.ties.ties import NO_TIES, Ties, joined_ties
@@ -35,12 +35,14 @@ def build_ties(sections: Sequence[TieSection], selection: BlockSelection, fixed:
         path: KeyPath = ("ties", number)
         lines, capacity = list(build_lines(section, path, site)), capacity_of(section)
         if section.prestress is not None and section.prestress > capacity:
-            site.refuse("out-of-bounds", f"must be <= {capacity:.6g}, the capacity of the tie", *path, "prestress")
+            site.refuse(
+                Finding("out-of-bounds", f"must be <= {capacity:.6g}, the capacity of the tie", *path, "prestress")
+            )
         idle = sum(not site.can_move(line.bodies) for line in lines)
         if idle and not selection.faults:
             hold = "holds" if idle == 1 else "hold"
             words = f"{idle} of {counted(len(lines), 'tie')} {hold} nothing: no two blocks that can move apart"
-            site.refuse("tie-without-effect", words, *path)
+            site.refuse(Finding("tie-without-effect", words, *path))
         parts.append(_ties(section, lines, capacity, counts))
     return joined_ties(parts)
 
@@ -53,9 +55,9 @@ def _refused_for_number(sections: Sequence[TieSection], site: TieSite) -> bool:
     for number in too_many:
         key = ("repeat",) if copies_of(sections[number].repeat) > 1 else ()
         about = f"lays out {min(counts[number], 10**300):.0e} {words}"
-        site.refuse("too-many-ties", about, "ties", number, *key)
+        site.refuse(Finding("too-many-ties", about, "ties", number, *key))
     if not too_many and sum(counts) > most:
-        site.refuse("too-many-ties", f"lay out {sum(counts):.0e} {words}", "ties")
+        site.refuse(Finding("too-many-ties", f"lay out {sum(counts):.0e} {words}", "ties"))
     return sum(counts) > most
 
 

@@ -12,7 +12,7 @@ from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.deck.section import given
 from mbla.deck.sections.strengthen import PATTERNS, Across, Candidate, Vertical
 from mbla.deck.sections.ties import TieSection
-from mbla.errors import KeyPath
+from mbla.errors import Finding, KeyPath
 from mbla.model.model import Ground
 from mbla.model.selectors import BlockSelection, select_blocks
 from mbla.model.solids.plane import plane_axes, unit
@@ -62,7 +62,7 @@ def build_candidates(
             words = "lays out no tie: none of its lines meets blocks that can move apart"
             if section.vertical is not None:
                 words += ", or ends on a fixed block or on ground"
-            site.refuse("tie-without-effect", words, *path)
+            site.refuse(Finding("tie-without-effect", words, *path))
         made = ties_of("tie", section.name or given(section, PATTERNS)[0], lines, counts)
         parts.append(made)
         costs.append(section.cost * made.lengths)
@@ -138,12 +138,14 @@ def _across(section: Across, path: KeyPath, site: _Site) -> Iterator[TieLine]:
     sides = np.array([wall.reach(aside) for wall in (one, other)])
     low, high = float(sides[:, 0].max()), float(sides[:, 1].min())  # of what the walls have in common
     if high <= low:
-        site.refuse("tie-without-effect", "the walls do not face each other: give another way with `along`", *path)
+        site.refuse(
+            Finding("tie-without-effect", "the walls do not face each other: give another way with `along`", *path)
+        )
         return
     places = _evenly(low, high, section.every)
     if not len(places):
         words = f"must be <= {high - low:.6g}, the length along which the walls face each other"
-        site.refuse("out-of-bounds", words, *path, "every")
+        site.refuse(Finding("out-of-bounds", words, *path, "every"))
         return
     count = len(section.z) * len(places) ** (1 if section.pairs == "opposite" else 2)
     if count > MOST_LINES:
@@ -167,7 +169,7 @@ def _evenly(low: float, high: float, every: float) -> FloatArray:
 
 
 def _refuse_number(count: int, site: _Site, *path: str | int) -> None:
-    site.refuse("too-many-candidates", f"lays out {count} ties, at most {MOST_LINES} can be handled", *path)
+    site.refuse(Finding("too-many-candidates", f"lays out {count} ties, at most {MOST_LINES} can be handled", *path))
 
 
 def _vertical(section: Vertical, path: KeyPath, site: _Site) -> Iterator[TieLine]:

@@ -67,14 +67,16 @@ class TieSite:
             point, self.blocks, np.arange(len(self.blocks)) if among is None else among, self.tolerance
         )
 
-    def refuse(self, identifier: str, words: str, *path: str | int) -> None:
-        """A fault."""
-        self.selection.refuse(Finding(identifier, words, *path))
+    def refuse(self, finding: Finding) -> None:
+        """Add a fault, once."""
+        self.selection.refuse(finding)
 
     def on_joint(self, what: str, found: IntArray, *path: str | int) -> None:
         """A fault of a point of a tie that is on several blocks."""
         words = f"{what} lies on the joint between {named(found, self.blocks.name)}: move it"
-        self.refuse("tie-on-joint", words + (", or choose one of them in `on`" if "through" in path else ""), *path)
+        self.refuse(
+            Finding("tie-on-joint", words + (", or choose one of them in `on`" if "through" in path else ""), *path)
+        )
 
     def can_move(self, bodies: IntArray) -> bool:
         """Whether points of a tie are on blocks, at least two or one and the ground, of which one moves."""
@@ -95,7 +97,7 @@ def _rings(ring: Ring, copy: AffineMap, path: KeyPath, site: TieSite) -> Iterato
     """A ring at each of its heights."""
     if not (np.array_equal(copy.matrix, np.eye(3)) and not copy.offset[:2].any()):
         words = "copies of a ring may be moved along z only: it goes round its blocks wherever they are"
-        site.refuse("tie-misfit", words, *path, "repeat")
+        site.refuse(Finding("tie-misfit", words, *path, "repeat"))
         return
     for number, z in enumerate(ring.z):
         chosen = select_blocks(ring.around, (*path, "ring", "around"), site.selection)
@@ -112,12 +114,12 @@ def _line(section: TieSection, copy: AffineMap, path: KeyPath, site: TieSite) ->
     far = np.abs(places).max(axis=1) > FARTHEST * np.abs(site.blocks.vertices).max(initial=1e-300)
     if far.any() and len(site.blocks):
         words = f"lies more than {FARTHEST:g} times as far away as the blocks"
-        site.refuse("coordinate-out-of-range", words, *path, key, int(np.argmax(far)))
+        site.refuse(Finding("coordinate-out-of-range", words, *path, key, int(np.argmax(far))))
         return
     lengths = np.linalg.norm(np.diff(places, axis=0), axis=1)
     if not (lengths > ALIKE * lengths.sum()).all():
         row = int(np.flatnonzero(lengths <= ALIKE * lengths.sum())[0]) + 1
-        site.refuse("degenerate-line", "must not be the point before it", *path, key, row)
+        site.refuse(Finding("degenerate-line", "must not be the point before it", *path, key, row))
     elif section.strip is not None:
         yield from _strip(places, (*path, key), site)
     else:
@@ -160,7 +162,7 @@ def _block_at(section: TieSection, number: int, place: FloatArray, path: KeyPath
     where, key = f"no block lies at {vector(place)}", "through"
     if anchor is not None:
         where, key = f"none of these blocks lies at {vector(place)}, the point that it is for", "on"
-    site.refuse("tie-off-blocks", f"{where}: move the point, or write ground in `on`", *path, key, number)
+    site.refuse(Finding("tie-off-blocks", f"{where}: move the point, or write ground in `on`", *path, key, number))
     return None
 
 
@@ -172,7 +174,9 @@ def _ring(chosen: IntArray, height: float, path: KeyPath, site: TieSite) -> Iter
     try:
         outline = plan[ConvexHull(plan).vertices]
     except (QhullError, ValueError):
-        site.refuse("tie-off-blocks", "these blocks have no plan at that height that a ring could go round", *path)
+        site.refuse(
+            Finding("tie-off-blocks", "these blocks have no plan at that height that a ring could go round", *path)
+        )
         return
     places = _corners_of(np.column_stack([outline, np.full(len(outline), height)]))
     owners = list[IntArray]()
@@ -241,7 +245,7 @@ def _strip(places: FloatArray, path: KeyPath, site: TieSite) -> Iterator[TieLine
                 return
             if len(under) and is_within(middle, site.blocks, int(under[0]), site.tolerance):
                 words = f"{part} is inside of {site.blocks.name(int(under[0]))}: a strip is glued"
-                site.refuse("tie-misfit", f"{words} to faces; give points on them", *path, number)
+                site.refuse(Finding("tie-misfit", f"{words} to faces; give points on them", *path, number))
                 return
             block = int(under[0]) if len(under) else OUTSIDE
             if OUTSIDE not in (block, last) and block != last:
@@ -251,7 +255,7 @@ def _strip(places: FloatArray, path: KeyPath, site: TieSite) -> Iterator[TieLine
                 crossings += 1
             last, came = block, along
     if not crossings:
-        site.refuse("tie-off-blocks", "it crosses no joint between blocks that it lies on", *path)
+        site.refuse(Finding("tie-off-blocks", "it crosses no joint between blocks that it lies on", *path))
 
 
 def cuts_of(begin: FloatArray, end: FloatArray, blocks: Blocks) -> FloatArray:
