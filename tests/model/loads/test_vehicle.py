@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from tests.model.loads.test_dispersal import ROW, law_up_to, model, shares
+from tests.model.fill.test_dispersal import ROW, law_up_to, model, shares
 
 
 def test_a_vehicle_stands_or_travels(tmp_path: Path) -> None:

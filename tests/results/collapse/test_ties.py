@@ -15,7 +15,7 @@ from mbla.results.listing.sections.tie_words import tie_force_blocks
 from mbla.results.listing.text import lines_of
 from tests.analytic.test_ties import SLENDER, WEIGHT
 from tests.line import case_of, line_of
-from tests.model.test_fill_restraint import DECK as WEDGE
+from tests.model.fill.test_restraint import DECK as WEDGE
 
 SECOND = "  - {through: [[0, 0.5, 0.8], [-3, 0.5, 0.8]], capacity: 100, on: [block, ground]}\n"
 TWO = SLENDER.replace('capacity: "=T"', 'capacity: "=T", breaks_at: 0') + SECOND
