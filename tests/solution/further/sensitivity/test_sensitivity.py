@@ -188,7 +188,7 @@ def test_without_dilatancy_they_are_of_the_associative_factor() -> None:
 @pytest.mark.parametrize(
     ("change", "words"),
     [
-        (("live: [{acceleration: [1, 0, 0]}]", "settlement: {on: block, direction: [0, 0, -1]}"), "gives way"),
+        (("live: [{acceleration: [1, 0, 0]}]", "settlement: {on: block, direction: [0, 0, -1]}"), "settling support"),
         (('cohesion: "=c"', "cohesion: 0"), ""),
     ],
 )
