@@ -36,7 +36,7 @@ def refuse(deck: Deck, findings: Iterable[Finding]) -> None:
 
 
 @dataclass(frozen=True)
-class MirrorPlane:
+class ModelMirror:
     """A plane and what it does to a model.
 
     point, normal : (3,)
@@ -63,7 +63,7 @@ class MirrorPlane:
         return np.asarray(np.einsum("ij,nj...->ni...", both, values))
 
 
-def find_mirror(deck: Deck, model: Model, plane: SymmetryPlane, path: KeyPath) -> MirrorPlane:
+def find_mirror(deck: Deck, model: Model, plane: SymmetryPlane, path: KeyPath) -> ModelMirror:
     """The plane as it stands to the blocks; raises DeckError where blocks reach across it."""
     blocks, (point, normal, label) = model.blocks, plane_of(plane)
     label = label or UNNAMED
@@ -94,4 +94,4 @@ def find_mirror(deck: Deck, model: Model, plane: SymmetryPlane, path: KeyPath) -
         halves[chosen] = True
     image_of = np.arange(len(blocks))
     image_of[~halves] = len(blocks) + np.arange(int((~halves).sum()))
-    return MirrorPlane(point, normal, label, halves, image_of)
+    return ModelMirror(point, normal, label, halves, image_of)

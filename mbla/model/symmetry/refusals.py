@@ -12,11 +12,11 @@ from mbla.errors import Finding, KeyPath
 from mbla.model.loads.gravity import with_gravity
 from mbla.model.loads.load_kind import entries_of, load_kind
 from mbla.model.model import LoadCase, Model
-from mbla.model.symmetry.mirror import ACROSS, UNNAMED, MirrorPlane
+from mbla.model.symmetry.mirror import ACROSS, UNNAMED, ModelMirror
 from mbla.model.wording import named
 
 
-def loads_across(deck: Deck, section: LoadCaseSection, path: KeyPath, mirror: MirrorPlane) -> Iterator[Finding]:
+def loads_across(deck: Deck, section: LoadCaseSection, path: KeyPath, mirror: ModelMirror) -> Iterator[Finding]:
     """Loads on masses that are not their own mirror image, and kinds of loads that have no image."""
     dead = entries_of(section.dead or [], (*path, "dead"), deck.content.loads)
     live = entries_of(section.live or [], (*path, "live"), deck.content.loads)
@@ -39,7 +39,7 @@ def loads_across(deck: Deck, section: LoadCaseSection, path: KeyPath, mirror: Mi
         yield Finding("symmetry-broken", message, *entry.path, entry.kind)
 
 
-def cannot_mirror(deck: Deck, model: Model, mirror: MirrorPlane, path: KeyPath) -> Iterator[Finding]:
+def cannot_mirror(deck: Deck, model: Model, mirror: ModelMirror, path: KeyPath) -> Iterator[Finding]:
     """Supports and forces that have no image."""
     near = deck.contacts.tolerance * float(model.blocks.sizes.min())
     for ground in model.grounds:
@@ -62,7 +62,7 @@ def cannot_mirror(deck: Deck, model: Model, mirror: MirrorPlane, path: KeyPath) 
         yield from _case_across(case, model, mirror)
 
 
-def _case_across(case: LoadCase, model: Model, mirror: MirrorPlane) -> Iterator[Finding]:
+def _case_across(case: LoadCase, model: Model, mirror: ModelMirror) -> Iterator[Finding]:
     """Loads and settlements across the plane of blocks that it cuts."""
     question, halved = case.question, mirror.halves[case.question.giving_way]
     across = np.zeros_like(mirror.halves)

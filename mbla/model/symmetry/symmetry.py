@@ -28,7 +28,7 @@ from mbla.model.solids.plane import plane_axes
 from mbla.model.solids.polyhedra import join_polyhedra, take_polyhedra
 from mbla.model.supports.guides import Guides
 from mbla.model.symmetry.halves import halves_joined
-from mbla.model.symmetry.mirror import ACROSS, MirrorPlane, find_mirror, refuse
+from mbla.model.symmetry.mirror import ACROSS, ModelMirror, find_mirror, refuse
 from mbla.model.symmetry.refusals import cannot_mirror, loads_across
 from mbla.model.ties.ties import OUTSIDE, Ties, joined_ties
 from mbla.model.transform import moved
@@ -60,7 +60,7 @@ def with_images(deck: Deck, model: Model) -> Model:
     return model
 
 
-def _mirrored(model: Model, mirror: MirrorPlane, tolerance: float) -> Model:
+def _mirrored(model: Model, mirror: ModelMirror, tolerance: float) -> Model:
     """The model with its image."""
     blocks, others = model.blocks, np.flatnonzero(~mirror.halves)
     own = polyhedra_of(blocks)
@@ -95,7 +95,7 @@ def _mirrored(model: Model, mirror: MirrorPlane, tolerance: float) -> Model:
 
 
 def _both_masses(
-    joined: Blocks, masses: FloatArray, points: FloatArray, mirror: MirrorPlane
+    joined: Blocks, masses: FloatArray, points: FloatArray, mirror: ModelMirror
 ) -> tuple[FloatArray, FloatArray]:
     """Masses (n,) at points (n, 3) on blocks and on their images; those of both halves on a block joined of two."""
     rows = np.concatenate([np.arange(len(masses)), mirror.image_of])
@@ -112,7 +112,7 @@ def _labels(model: Model, others: IntArray) -> Labels:
     return Labels(groups, densities, join_labels([blocks.labels, images]))
 
 
-def _grounds(grounds: Sequence[Ground], mirror: MirrorPlane) -> tuple[Ground, ...]:
+def _grounds(grounds: Sequence[Ground], mirror: ModelMirror) -> tuple[Ground, ...]:
     """Planes across the mirror carry images too; others, and surfaces that end, have an image of their own."""
     result, images = [], []
     for ground in grounds:
@@ -129,7 +129,7 @@ def _grounds(grounds: Sequence[Ground], mirror: MirrorPlane) -> tuple[Ground, ..
     return (*result, *images)
 
 
-def _own_image(ground: Ground, mirror: MirrorPlane) -> bool:
+def _own_image(ground: Ground, mirror: ModelMirror) -> bool:
     """Whether a surface that ends lies across the mirror, alike on both sides."""
     assert ground.outline is not None  # who calls knows
     if abs(float(ground.normal @ mirror.normal)) > ACROSS:
@@ -140,7 +140,7 @@ def _own_image(ground: Ground, mirror: MirrorPlane) -> bool:
     return bool(shapely.symmetric_difference(one, other).area <= ACROSS * one.area)
 
 
-def _guides(guides: Guides, mirror: MirrorPlane) -> Guides:
+def _guides(guides: Guides, mirror: ModelMirror) -> Guides:
     if not len(guides):
         return guides
     return Guides(
@@ -151,7 +151,7 @@ def _guides(guides: Guides, mirror: MirrorPlane) -> Guides:
     )
 
 
-def _ties(ties: Ties, mirror: MirrorPlane) -> Ties:
+def _ties(ties: Ties, mirror: ModelMirror) -> Ties:
     """Ties and their images, but of those that lie in the plane; one that crosses it is given as its half to ground."""
     if not len(ties):
         return ties
@@ -174,7 +174,7 @@ class _OnBoth:
     count : blocks of the mirrored structure
     """
 
-    mirror: MirrorPlane
+    mirror: ModelMirror
     shift: FloatArray
     count: int
 
@@ -234,7 +234,7 @@ def _load_case(case: LoadCase, both: _OnBoth) -> LoadCase:
     return mirrored
 
 
-def _settlement(settlement: Settlement, mirror: MirrorPlane) -> Settlement:
+def _settlement(settlement: Settlement, mirror: ModelMirror) -> Settlement:
     """The support with its image, which moves as far."""
     apart = ~mirror.halves[settlement.blocks]
     images = mirror.motions(settlement.motions)[apart]

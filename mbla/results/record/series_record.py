@@ -25,14 +25,14 @@ class SeriesOfModel:
 
 
 @dataclass(frozen=True)
-class Axle:
+class AxleOfPosition:
     """One of a position."""
 
     position: Position
     number: int
 
 
-SERIES, AXLE = Object[SeriesOfModel](), Object[Axle]()
+SERIES, AXLE = Object[SeriesOfModel](), Object[AxleOfPosition]()
 _KNOWN = {quantity.name: quantity for quantity in quantities.POSITIONS.quantities}
 POSITION = Object[Position](
     *(_KNOWN[name] for name in ("case", "position", "point", "distance", "block", "status", "load_factor"))
@@ -60,26 +60,26 @@ def worst(of: SeriesOfModel) -> Position | None:
 
 
 @POSITION.key("an axle", inside=AXLE)
-def axles(of: Position) -> list[Axle]:
+def axles(of: Position) -> list[AxleOfPosition]:
     """All axles, the first one first."""
-    return [Axle(of, number) for number in range(len(of.travel.blocks))]
+    return [AxleOfPosition(of, number) for number in range(len(of.travel.blocks))]
 
 
 @AXLE.key(name="point", dims="axis", unit="length")
-def point_of_axle(of: Axle) -> FloatArray:
+def point_of_axle(of: AxleOfPosition) -> FloatArray:
     """As of the position."""
     point: FloatArray = of.position.travel.points[of.number]
     return point
 
 
 @AXLE.key(name="distance", unit="length")
-def distance_of_axle(of: Axle) -> float:
+def distance_of_axle(of: AxleOfPosition) -> float:
     """As of the position."""
     return float(of.position.travel.distances[of.number])
 
 
 @AXLE.key(name="block")
-def block_of_axle(of: Axle) -> str | None:
+def block_of_axle(of: AxleOfPosition) -> str | None:
     """As of the position."""
     block = int(of.position.travel.blocks[of.number])
     return of.position.model.blocks.name(block) if block >= 0 else None

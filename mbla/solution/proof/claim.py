@@ -23,7 +23,7 @@ from mbla.solution.proof.kinematic_repair import repaired_mechanisms
 from mbla.solution.proof.static_repair import repaired_forces
 from mbla.solution.reach import stays_within, within_reach
 from mbla.solution.solution import Mechanics, Solution
-from mbla.solution.verification.case import Case, Motion
+from mbla.solution.verification.case import LoadedModel, Motion
 from mbla.solution.verification.proofs import certificate_failures, kinematic_bound
 from mbla.solution.verification.verify_convex import InterfaceCase
 
@@ -49,7 +49,7 @@ def with_proof(model: Model, contacts: Contacts, load_case: LoadCase, solution: 
         program = replace(program, limits=program.limits.without_crushing(~contacts.tie_points))
         repair = _AtInterfaces(InterfaceCase(model, contacts, load_case, solution.contact_model), program)
     else:
-        repair = _AtPoints(Case(model, contacts, load_case), assemble(model, contacts, load_case))
+        repair = _AtPoints(LoadedModel(model, contacts, load_case), assemble(model, contacts, load_case))
     if given is None:
         assert fall is not None
         motion, motions = _fall(repair, (fall, solution.certificate_motions))
@@ -63,7 +63,7 @@ def with_proof(model: Model, contacts: Contacts, load_case: LoadCase, solution: 
 class _AtPoints:
     """How a state of contact points is repaired, by the program of the full model, and who judges it."""
 
-    case: Case
+    case: LoadedModel
     program: Program
 
     def forces(self, mechanics: Mechanics) -> tuple[FloatArray, float] | None:

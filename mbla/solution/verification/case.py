@@ -52,7 +52,7 @@ class InterfaceTerms:
 
 
 @dataclass(frozen=True)
-class Case:
+class LoadedModel:
     """Model, contacts and loads; forces are (n_points, 3) N, mechanisms (n_blocks, 6)."""
 
     model: Model

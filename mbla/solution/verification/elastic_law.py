@@ -19,14 +19,14 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.solution.solution import Mechanics
-from mbla.solution.verification.case import Case
+from mbla.solution.verification.case import LoadedModel
 from mbla.solution.verification.stiffness import relative_stiffness
 
 RESTS, ALIKE = 1e-9, 1e-6
 """Velocity over the largest up to which a joint counts as at rest, and difference of stiffness that is rounding."""
 
 
-def elastic_residual(case: Case, mechanics: Mechanics, dilatancy: FloatArray) -> float:
+def elastic_residual(case: LoadedModel, mechanics: Mechanics, dilatancy: FloatArray) -> float:
     """Largest force that is off the law, over the largest force of a contact point or the mean weight of a point.
 
     NaN where the mechanics are those of rigid joints; infinite where a joint that moves has not the stiffness that it
@@ -51,7 +51,12 @@ def elastic_residual(case: Case, mechanics: Mechanics, dilatancy: FloatArray) ->
 
 
 def _off(
-    case: Case, forces: FloatArray, v: FloatArray, remembered: FloatArray, stiffness: FloatArray, dilatancy: FloatArray
+    case: LoadedModel,
+    forces: FloatArray,
+    v: FloatArray,
+    remembered: FloatArray,
+    stiffness: FloatArray,
+    dilatancy: FloatArray,
 ) -> FloatArray:
     """Forces that are off the law, (n_points,)."""
     limits, (normal_stiffness, shear_stiffness) = case.limits, stiffness.T
@@ -65,7 +70,7 @@ def _off(
     return np.asarray(np.hypot(normal - forces[:, 0], np.hypot(*(shear - forces[:, 1:]).T)))
 
 
-def _is_in_proportion(case: Case, stiffness: FloatArray, v: FloatArray) -> bool:
+def _is_in_proportion(case: LoadedModel, stiffness: FloatArray, v: FloatArray) -> bool:
     """Whether the stiffness of joints that move is that of their area, in the units of light blocks.
 
     stiffness : (n_points, 2); v : (n_points, 3) velocities

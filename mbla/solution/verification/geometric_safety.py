@@ -11,7 +11,7 @@ from mbla.solution.further.geometric_safety.geometric_safety import MOST, TOLERA
 from mbla.solution.further.geometric_safety.reference_pressure import pressed_by, unit_of_pressure
 from mbla.solution.further.sensitivity.structures import LoadedAssembly
 from mbla.solution.solution import Mechanics
-from mbla.solution.verification.case import Case
+from mbla.solution.verification.case import LoadedModel
 from mbla.solution.verification.proofs import associative_bounds
 
 APART = 1e-4
@@ -39,7 +39,7 @@ def proved(assembly: Assembly, load_case: LoadCase, safety: GeometricSafety) -> 
             mechanism=motions_of_bodies(bodies, safety.mechanisms[row]),
             modes=np.zeros(len(assembly.contacts.points), dtype=np.int64),
         )
-        case = Case(bodies.model, bodies.contacts, bodies.load_case(posed.load_case))
+        case = LoadedModel(bodies.model, bodies.contacts, bodies.load_case(posed.load_case))
         bounds.append(associative_bounds(case, state))
     for own, (least, most) in zip(safety.load_factors, bounds, strict=True):
         room = TOLERANCE * abs(own)

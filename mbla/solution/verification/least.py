@@ -12,7 +12,7 @@ from mbla.contacts.contacts import Contacts
 from mbla.model.model import LoadCase, Model
 from mbla.solution.solution import Solution
 from mbla.solution.thresholds import SOLVED_RESIDUAL
-from mbla.solution.verification.case import Case
+from mbla.solution.verification.case import LoadedModel
 from mbla.solution.verification.residuals import residuals_of
 
 
@@ -21,7 +21,7 @@ def least_check(model: Model, contacts: Contacts, load_case: LoadCase, solution:
     least = solution.least
     if least is None:
         return np.nan
-    case = Case(model, contacts, load_case)
+    case = LoadedModel(model, contacts, load_case)
     dilatancy = case.limits.dilatancy if solution.flow_rule == "dilatancy" else np.zeros(len(contacts.points))
     fits = residuals_of(case, least, dilatancy).largest <= SOLVED_RESIDUAL
     return least.load_factor if fits else np.nan

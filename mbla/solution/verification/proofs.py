@@ -20,11 +20,11 @@ from mbla.arrays import FloatArray
 from mbla.errors import Message
 from mbla.solution.solution import Mechanics
 from mbla.solution.thresholds import LOCKED_IN
-from mbla.solution.verification.case import Case, Motion
+from mbla.solution.verification.case import LoadedModel, Motion
 from mbla.solution.verification.statics import largest_on_interface
 
 
-def associative_bounds(case: Case, associative: Mechanics) -> tuple[float, float]:
+def associative_bounds(case: LoadedModel, associative: Mechanics) -> tuple[float, float]:
     """Static and kinematic bound of the associative load factor, NaN where none is proved."""
     forces, factor, static = associative.contact_forces, associative.load_factor, np.nan
     motion = case.admissible(case.motion_of(associative))
@@ -36,7 +36,7 @@ def associative_bounds(case: Case, associative: Mechanics) -> tuple[float, float
     return static, kinematic
 
 
-def kinematic_bound(case: Case, motion: Motion, forces: FloatArray) -> float:
+def kinematic_bound(case: LoadedModel, motion: Motion, forces: FloatArray) -> float:
     """Load factor at or above the collapse value that an admissible motion proves; NaN where it proves none.
 
     forces : (n_points, 3) N of the state, which say with what rounding is charged, and what strengths count as at most
@@ -50,7 +50,7 @@ def kinematic_bound(case: Case, motion: Motion, forces: FloatArray) -> float:
     return bound if np.isfinite(bound) else np.nan
 
 
-def certificate_failures(case: Case, certificate: Motion) -> tuple[Message, ...]:
+def certificate_failures(case: LoadedModel, certificate: Motion) -> tuple[Message, ...]:
     """Why a motion does not prove that the dead load alone is not carried; nothing where it does."""
     motion = case.admissible(certificate)
     dissipated, lack = case.dissipation(motion)

@@ -21,7 +21,7 @@ from mbla.arrays import FloatArray
 from mbla.contacts.contacts import Contacts
 from mbla.program.yield_conditions.limits import YieldLimits
 from mbla.solution.solution import Mechanics
-from mbla.solution.verification.case import Case
+from mbla.solution.verification.case import LoadedModel
 from mbla.solution.verification.statics import largest_on_interface, off_guides
 from mbla.solution.verification.strengths import excess
 
@@ -68,7 +68,7 @@ NO_FORCE = 2.0
 powers, where the rounding of motions would count as much as they do."""
 
 
-def residuals_of(case: Case, mechanics: Mechanics, dilatancy: FloatArray) -> Residuals:
+def residuals_of(case: LoadedModel, mechanics: Mechanics, dilatancy: FloatArray) -> Residuals:
     """Residuals under a flow rule with the given dilatancy (tangent), (n_points,)."""
     limits, scale, contacts, free = case.limits, case.scale, case.contacts, case.model.free
     x, factor, (u, motions) = mechanics.contact_forces, mechanics.load_factor, case.motion_of(mechanics)

@@ -14,7 +14,7 @@ from mbla.arrays import FloatArray
 from mbla.assembly.lift import motions_of_blocks
 from mbla.model.ties.moved import elongations
 from mbla.solution.further.strengthening.strengthening import Strengthening
-from mbla.solution.verification.case import Case
+from mbla.solution.verification.case import LoadedModel
 
 
 def proved_least_cost(
@@ -32,7 +32,7 @@ def proved_least_cost(
     without = strengthening.without_candidates
     for each, motion, own in zip(strengthening.requirements, motions, forces, strict=True):
         joints = without.of(each.load_case)
-        judged = Case(joints.model, joints.contacts, joints.load_case(each.load_case))
+        judged = LoadedModel(joints.model, joints.contacts, joints.load_case(each.load_case))
         dissipated, lack = judged.dissipation((motion, None))
         dead, live = judged.powers(motion)
         largest = 2.0 * float(np.abs(own[:, 0]).max(initial=0.0))

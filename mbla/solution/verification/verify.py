@@ -22,7 +22,7 @@ from mbla.questions.angle import Angle
 from mbla.questions.load_factor import LOAD_FACTOR
 from mbla.solution.full_model.lifted import model_of, rule_of, solution_on_bodies
 from mbla.solution.solution import Checks, Solution, Standing, Status
-from mbla.solution.verification.case import Case
+from mbla.solution.verification.case import LoadedModel
 from mbla.solution.verification.elastic_law import elastic_residual
 from mbla.solution.verification.least import least_check
 from mbla.solution.verification.lock import lock_failures
@@ -114,7 +114,7 @@ def residual_of(assembly: Assembly, load_case: LoadCase, solution: Solution, par
         load_case = replace(load_case, live_load=load_case.question.pushed(load_case.live_load))
     rule = rule_of(part, solution)
     parts = _claimed(bodies, load_case)
-    case = Case(*parts)
+    case = LoadedModel(*parts)
     if mechanics.interface_motions is not None:
         case = InterfaceCase(*parts, model_of(part, solution), rule)
     dilatancy = case.limits.dilatancy_by(rule)

@@ -19,7 +19,7 @@ from mbla.model.model import LoadCase, Model
 from mbla.program.yield_conditions.limits import YieldLimits
 from mbla.solution.solution import Checks, Mechanics, Solution
 from mbla.solution.thresholds import LIVE_POWER_DEVIATION, SOLVED_EQUILIBRIUM, SOLVED_RESIDUAL
-from mbla.solution.verification.case import PASSED_ON_ROUNDING, PROVED_RESIDUAL, Case, InterfaceTerms, Motion
+from mbla.solution.verification.case import PASSED_ON_ROUNDING, PROVED_RESIDUAL, InterfaceTerms, LoadedModel, Motion
 from mbla.solution.verification.elastic_law import elastic_residual
 from mbla.solution.verification.interface_laws import (
     InterfaceLaws,
@@ -74,7 +74,7 @@ def torsion_check(model: Model, contacts: Contacts, load_case: LoadCase, solutio
 
 
 @dataclass(frozen=True)
-class InterfaceCase(Case):
+class InterfaceCase(LoadedModel):
     """A load case with conditions on interfaces; resultants are (n_interfaces, 6)."""
 
     contact_model: str

@@ -25,7 +25,7 @@ from mbla.solution.thresholds import (
     SOLVED_EQUILIBRIUM,
     SOLVED_RESIDUAL,
 )
-from mbla.solution.verification.case import Case
+from mbla.solution.verification.case import LoadedModel
 from mbla.solution.verification.elastic_law import elastic_residual
 from mbla.solution.verification.proofs import associative_bounds, certificate_failures
 from mbla.solution.verification.residuals import Residuals, residuals_of
@@ -81,10 +81,10 @@ def checks_of(residuals: Residuals, bounds: Bounds, failures: tuple[Message, ...
 
 def verify_points(model: Model, contacts: Contacts, load_case: LoadCase, solution: Solution) -> Checks:
     """Recompute residuals and bounds of a solution; NaN where there is nothing to check."""
-    return checked(Case(model, contacts, load_case), solution)
+    return checked(LoadedModel(model, contacts, load_case), solution)
 
 
-def checked(case: Case, solution: Solution) -> Checks:
+def checked(case: LoadedModel, solution: Solution) -> Checks:
     """The same, by the conditions of a case."""
     if solution.mechanics is None:
         return _checked_without_mechanics(case, solution)
@@ -97,7 +97,7 @@ def checked(case: Case, solution: Solution) -> Checks:
     return checks_of(residuals, bounds, failures_of(residuals, solution, bounds, elastic), elastic)
 
 
-def _checked_without_mechanics(case: Case, solution: Solution) -> Checks:
+def _checked_without_mechanics(case: LoadedModel, solution: Solution) -> Checks:
     """Of a solution without forces and mechanism: of its certificate where it has one; all figures are NaN."""
     failures: tuple[Message, ...] = (
         (Message("not-verified", solution.reason),) if solution.status is not Status.UNBOUNDED else ()

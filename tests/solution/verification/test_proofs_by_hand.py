@@ -9,14 +9,14 @@ import numpy as np
 import pytest
 
 from mbla.solution.solution import Mechanics
-from mbla.solution.verification.case import Case
+from mbla.solution.verification.case import LoadedModel
 from mbla.solution.verification.proofs import associative_bounds, certificate_failures
 from tests.line import BLOCK, Line, line_of
 from tests.solution.by_hand import DEAD, LIVE, RISES, cube, loaded, on_ground, pushed_block, state
 
 
 def proved(line: Line, mechanics: Mechanics) -> tuple[float, float]:
-    return associative_bounds(Case(line.model, line.contacts, line.load_case), mechanics)
+    return associative_bounds(LoadedModel(line.model, line.contacts, line.load_case), mechanics)
 
 
 def of_block(
@@ -154,7 +154,7 @@ def against_a_fall(line: Line, motion: tuple[float, ...]) -> tuple[str, ...]:
     """Of a block pushed by 24 as well, a load of 40."""
     case = loaded(line.load_case, (24, 0, -32, 0, 0, 0), LIVE)
     fall = np.array([motion], dtype=float), None
-    return tuple(map(str, certificate_failures(Case(line.model, line.contacts, case), fall)))
+    return tuple(map(str, certificate_failures(LoadedModel(line.model, line.contacts, case), fall)))
 
 
 NO_WORK = ("the dead load does no work in the mechanism that should show the lack of equilibrium",)

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from mbla.solution.verification.case import Case
+from mbla.solution.verification.case import LoadedModel
 from mbla.solution.verification.residuals import flow_power, penetration_of, residuals_of, share_of
 from tests.line import BLOCK, Line, line_of
 from tests.solution.by_hand import EXACT, cube, limits_of, loaded, on_ground, state
@@ -138,7 +138,7 @@ def of_block(
     forces = on_ground(line.model, line.contacts, pressed)
     mechanics = state(forces, np.array([motion], dtype=float), factor)
     dilatancy = np.full(4, options.pop("dilatancy", 0.0))
-    return vars(residuals_of(Case(line.model, line.contacts, case), mechanics, dilatancy, **options))
+    return vars(residuals_of(LoadedModel(line.model, line.contacts, case), mechanics, dilatancy, **options))
 
 
 SLIDES = (0.125, 0.0, 0.0, 0.0, 0.0, 0.0)
@@ -171,7 +171,7 @@ def test_unbalanced_moments_count_over_the_lever_arm(dry: Line) -> None:
     case = loaded(dry.load_case, (0, 0, -32, 0, 0, 0), (8, 0, 0, 0, 4, 0))
     forces = on_ground(dry.model, dry.contacts, (8, -4, 0))
     mechanics = state(forces, np.array([SLIDES]), 2.0)
-    found = residuals_of(Case(dry.model, dry.contacts, case), mechanics, np.zeros(4))
+    found = residuals_of(LoadedModel(dry.model, dry.contacts, case), mechanics, np.zeros(4))
     assert found.equilibrium == pytest.approx(2.0 * 6.0 / 0.75 / 32)
 
 
@@ -197,7 +197,7 @@ def test_tension_dissipates_as_the_joint_opens(mortar: Line) -> None:
     case = loaded(mortar.load_case, (0, 0, -32, 0, 0, 0), (0, 0, 8, 0, 0, 0))
     forces = on_ground(mortar.model, mortar.contacts, (-2, 0, 0))
     mechanics = state(forces, np.array([[0, 0, 0.125, 0, 0, 0]]), 5.0)
-    found = vars(residuals_of(Case(mortar.model, mortar.contacts, case), mechanics, np.zeros(4)))
+    found = vars(residuals_of(LoadedModel(mortar.model, mortar.contacts, case), mechanics, np.zeros(4)))
     only(found)
 
 
@@ -231,7 +231,10 @@ def test_dilatancy_opens(dry: Line) -> None:
 
 def test_fixed_blocks_need_no_balance(dry: Line) -> None:
     model = replace(dry.model, fixed=np.array([True]))
-    forces, cases = on_ground(dry.model, dry.contacts, (0, 0, 0)), [Case(dry.model, dry.contacts, dry.load_case)] * 2
+    forces, cases = (
+        on_ground(dry.model, dry.contacts, (0, 0, 0)),
+        [LoadedModel(dry.model, dry.contacts, dry.load_case)] * 2,
+    )
     cases[0] = replace(cases[0], model=model)
     vars(cases[0])["scale"] = cases[1].scale  # there is none of fixed blocks alone
     left = [case.unbalanced_loads(forces, 1.0) for case in cases]
@@ -253,5 +256,7 @@ def test_an_unbalanced_light_block_is_judged_by_its_own_weight(share: float) -> 
     heavy = (contacts.bodies[contacts.interface_of_point] == np.argmax(weights)).any(axis=1)
     carried = np.zeros((len(contacts.points), 3))
     carried[heavy, 0] = weights.max() / heavy.sum()
-    found = residuals_of(Case(line.model, contacts, line.load_case), state(carried, motion, 0.0), np.zeros(len(heavy)))
+    found = residuals_of(
+        LoadedModel(line.model, contacts, line.load_case), state(carried, motion, 0.0), np.zeros(len(heavy))
+    )
     assert found.equilibrium == pytest.approx(1.0)

@@ -24,7 +24,7 @@ from mbla.model.ties.moved import elongations
 from mbla.program.yield_conditions import YieldLimits
 from mbla.solution.further.sensitivity.structures import LoadedAssembly
 from mbla.solution.solution import Mechanics, Solution
-from mbla.solution.verification.case import Case
+from mbla.solution.verification.case import LoadedModel
 from mbla.solution.verification.interface_laws import crushing_power
 from mbla.solution.verification.statics import power
 from mbla.solution.verification.verify_convex import InterfaceCase
@@ -80,9 +80,9 @@ def state_of(structure: LoadedAssembly, solution: Solution, associative: Mechani
     )
 
 
-def _case(structure: LoadedAssembly, motions: FloatArray | None, contact_model: str) -> Case:
+def _case(structure: LoadedAssembly, motions: FloatArray | None, contact_model: str) -> LoadedModel:
     parts = structure.model, structure.contacts, structure.load_case
-    return Case(*parts) if motions is None else InterfaceCase(*parts, contact_model)
+    return LoadedModel(*parts) if motions is None else InterfaceCase(*parts, contact_model)
 
 
 def lagrangian(structure: LoadedAssembly, state: State) -> float:
