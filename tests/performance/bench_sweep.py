@@ -7,9 +7,7 @@
 Each of the two sweeps, with directions around the horizon, so that the arch is solved in space, and in its plane, by
 
 - ``separate``: ``mbla.run(deck, set=...)`` for every point, in one process, that imports nothing any more;
-- ``shared``: the points one after the other in one process, which hands on states under the dead load, with the default
-  columns: range and peak of the load factor are none of them, so that points are solved without;
-- ``shared, range``: the same with the range of the load factor, so that every point does all that a separate run does;
+- ``shared``: the points one after the other in one process, which hands on states under the dead load;
 - ``one worker``, ``two workers``: the command ``mbla sweep -j 1`` and ``-j 2``, with start, journal and table.
 
 Seconds are by the clock, as somebody waits for them, and of the processor, of this process and its children. ``ratio``
@@ -71,9 +69,9 @@ def separate(points: Points) -> list[float | None]:
     return [_finite(mbla.run(DECK, set=point, cases=CASE)[CASE].load_factor) for point in points]
 
 
-def shared(points: Points, columns: tuple[str, ...] = COLUMNS) -> list[float | None]:
+def shared(points: Points) -> list[float | None]:
     """Load factor of each point in one process."""
-    plan = Plan(str(DECK), "", (), (CASE,), columns, "none", "", None, None, "")
+    plan = Plan(str(DECK), "", (), (CASE,), COLUMNS, program="")
     runner = PointRunner(plan)
     outcomes = [runner.run(Task(str(number), number, point)) for number, point in enumerate(points, start=1)]
     return [_number(outcome.results["load_factor"]) for outcome in outcomes]
@@ -137,7 +135,6 @@ def main(count: int) -> None:
         ways: dict[str, Callable[[], list[float | None]]] = {
             "separate": partial(separate, points),
             "shared": partial(shared, points),
-            "shared, range": partial(shared, points, (*COLUMNS, "range.0", "range.1")),
             "one worker": partial(by_command, points, 1),
             "two workers": partial(by_command, points, 2),
         }
