@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from mbla.cli.given_decks import read_one_deck, run_options
-from mbla.cli.options import add_analysis_options, points, relative_above_zero, target
+from mbla.cli.options import add_analysis_options, add_quiet, points, relative_above_zero, target
 from mbla.process.collector import loading
 
 
@@ -41,7 +41,7 @@ def add(commands: Any) -> None:
     command.add_argument("--set", action="append", default=[], metavar="KEY.PATH=VALUE", help=words)
     add_analysis_options(command)
     command.add_argument("--json", action="store_true", help="one JSON object on standard output, nothing else")
-    command.add_argument("-q", "--quiet", action="store_true", help="say nothing but errors")
+    add_quiet(command)
 
 
 def find(options: argparse.Namespace) -> int:

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from mbla.cli.given_decks import read_one_deck, run_options
-from mbla.cli.options import add_analysis_options, add_deck_options, add_jobs, degrees, points, seconds
+from mbla.cli.options import add_analysis_options, add_deck_options, add_jobs, add_quiet, degrees, points, seconds
 from mbla.cli.sweep_progress import solve_and_print
 from mbla.process.collector import loading
 
@@ -41,7 +41,7 @@ def add(commands: Any) -> None:
     words = "seconds for each point, instead of analysis.time_limit"
     command.add_argument("--time-limit", type=seconds, metavar="S", help=words)
     add_analysis_options(command)
-    command.add_argument("-q", "--quiet", action="store_true", help="say nothing but errors")
+    add_quiet(command)
 
 
 def interact(options: argparse.Namespace) -> int:

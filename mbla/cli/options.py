@@ -103,6 +103,11 @@ def add_analysis_options(command: argparse.ArgumentParser) -> None:
     command.add_argument("--flow-rule", choices=["associative", "non_associative", "dilatancy", "livesley"], help=words)
 
 
+def add_quiet(command: Any) -> None:
+    """No words but errors; of a command, or of a group of options that exclude each other."""
+    command.add_argument("-q", "--quiet", action="store_true", help="say nothing but errors")
+
+
 def add_jobs(command: argparse.ArgumentParser) -> None:
     """Processes for the points of a sweep."""
     words = "processes of this machine (default 1)"

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from mbla.cli.given_decks import each_deck, read_given_deck, run_options
-from mbla.cli.options import add_analysis_options, add_deck_options, seconds, threads
+from mbla.cli.options import add_analysis_options, add_deck_options, add_quiet, seconds, threads
 from mbla.cli.terminal import clear_line, failed, rewrite_line, say
 from mbla.errors import UsageError
 from mbla.process.collector import loading
@@ -37,7 +37,7 @@ def add(commands: Any) -> None:
     command.add_argument("--threads", type=threads, default=1, metavar="N", help=words)
     command.add_argument("--expected", action="store_true", help="compare with the deck's expected section")
     volume = command.add_mutually_exclusive_group()
-    volume.add_argument("-q", "--quiet", action="store_true", help="say nothing but errors")
+    add_quiet(volume)
     volume.add_argument("-v", "--verbose", action="store_true", help="print the listing instead of the summary")
 
 

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from mbla.cli.given_decks import read_one_deck, run_options
-from mbla.cli.options import add_analysis_options, add_deck_options
+from mbla.cli.options import add_analysis_options, add_deck_options, add_quiet
 from mbla.process.collector import loading
 
 
@@ -29,7 +29,7 @@ def add(commands: Any) -> None:
     command.add_argument("deck", type=Path, metavar="DECK")
     add_deck_options(command)
     add_analysis_options(command)
-    command.add_argument("-q", "--quiet", action="store_true", help="say nothing but errors")
+    add_quiet(command)
 
 
 def strengthen(options: argparse.Namespace) -> int:

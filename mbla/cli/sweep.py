@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from mbla.cli.given_decks import refuse_unfit_name
-from mbla.cli.options import add_deck_options, add_jobs, shard
+from mbla.cli.options import add_deck_options, add_jobs, add_quiet, shard
 from mbla.cli.sweep_progress import solve_and_print
 from mbla.process.collector import loading
 
@@ -39,7 +39,7 @@ def add(commands: Any) -> None:
     command.add_argument("--parquet", action="store_true", help="the table as Parquet too (extra mbla[tables])")
     command.add_argument("--hdf5", action="store_true", help="the table as HDF5 too, along the axes of the design")
     add_deck_options(command, "for every point", what="sweep", default="SWEEP.out")
-    command.add_argument("-q", "--quiet", action="store_true", help="say nothing but errors")
+    add_quiet(command)
 
 
 def sweep(options: argparse.Namespace) -> int:

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from mbla.cli.given_decks import read_one_deck, run_options
-from mbla.cli.options import add_deck_options, relative_above_zero, seconds, threads
+from mbla.cli.options import add_deck_options, add_quiet, relative_above_zero, seconds, threads
 from mbla.cli.sweep_progress import solve_and_print
 from mbla.process.collector import loading
 
@@ -37,7 +37,7 @@ def add(commands: Any) -> None:
     command.add_argument("--time-limit", type=seconds, metavar="S", help="seconds for all settings together")
     command.add_argument("--run-limit", type=seconds, metavar="S", help="seconds for each setting")
     command.add_argument("--threads", type=threads, default=1, metavar="N", help="as of mbla run (default 1)")
-    command.add_argument("-q", "--quiet", action="store_true", help="say nothing but errors")
+    add_quiet(command)
 
 
 def tradeoff(options: argparse.Namespace) -> int:
