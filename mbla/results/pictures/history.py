@@ -8,16 +8,12 @@ from typing import Any
 import numpy as np
 
 from mbla.arrays import FloatArray
-from mbla.results.listing.answers import standing_words
 from mbla.results.listing.sections.pushover import curve_words
 from mbla.results.listing.text import number
-from mbla.results.outcome import figure_of
 from mbla.results.pictures.diagrams import dress, open_diagrams
 from mbla.results.pictures.options import PictureOptions
 from mbla.results.pictures.page import BLUE, GHOST, GREEN, INK, ORANGE, PURPLE, VERMILION, WARNING, Page
 from mbla.results.pictures.scene import PictureScene
-from mbla.results.series import Series
-from mbla.solution.solution import Status
 from mbla.solution.thresholds import SOLVED_RESIDUAL
 
 LINES = (
@@ -26,10 +22,6 @@ LINES = (
     ("dual_residual", "dual residual", PURPLE, ":", "^"),
 )
 """residuals of an iteration: field, name, colour, line, marker"""
-
-
-SPREAD = 10.0
-"""greatest over least load factor from which positions of a load are drawn to a logarithmic scale"""
 
 
 def draw_history(path: Path, scene: PictureScene, options: PictureOptions) -> None:
@@ -158,56 +150,3 @@ def draw_curve(path: Path, scene: PictureScene, options: PictureOptions) -> None
             axes.axvline(moved[row], color=GHOST, linewidth=0.8 * page.scale, zorder=0)
         axes.set_xlim(left=min(0.0, float(moved.min())))
         axes.set_ylim(bottom=min(0.0, float(values.min())))
-
-
-def draw_series(path: Path, scene: PictureScene, series: Series, options: PictureOptions) -> None:
-    """Write the load factor of a travelling load over its position; raises as ``open_diagrams`` does.
-
-    Positions without a result are crosses at the foot, those that no load brings down arrows at the top.
-    """
-    place = np.array([case.load_case.question.place.distance for case in series.cases])
-    values = np.array([figure_of(case) for case in series.cases])
-    sure = np.array([case.status is Status.SOLVED for case in series.cases])
-    words = [scene.words_of("model")[0], f"load case {series.name}: load factor over {len(place)} positions"]
-    if series.worst is not None:
-        at, worst = series.worst.load_case.question.place, figure_of(series.worst)
-        words.append(f"worst at position {at.number}, {standing_words(scene.model, at)}: {number(worst)}")
-    missing = int(np.isnan(values).sum())
-    mark = f"NOT VERIFIED: {missing} of {len(place)} positions without a result" if missing else ""
-    with open_diagrams(path, options, words, mark) as sheet:
-        page, axes = sheet.page, sheet.frames(1)[0, 0]
-        what = "position" if len(series.cases[0].load_case.question.place.points) == 1 else "first axle"
-        dress(page, axes, f"{what} along the path [{scene.model.units.length}]", "load factor")
-        _draw_positions(page, axes, place, values, sure)
-        if series.worst is not None:
-            axes.plot(at.distance, worst, "D", color=VERMILION, markersize=11 * page.scale, label="worst", zorder=5)
-        axes.legend(fontsize=page.small, frameon=False)
-
-
-def _draw_positions(page: Page, axes: Any, place: FloatArray, values: FloatArray, sure: Any) -> None:
-    known = np.isfinite(values)
-    size = 7 * page.scale
-    axes.plot(place, np.where(known, values, np.nan), color=BLUE, linewidth=1.8 * page.scale)
-    for chosen, face, name in ((known & sure, BLUE, "load factor"), (known & ~sure, "white", "approximate")):
-        if chosen.any():
-            look = {"markerfacecolor": face, "markeredgecolor": BLUE, "linestyle": "none", "markersize": size}
-            axes.plot(place[chosen], values[chosen], marker="o", label=name, **look)
-    low, high = (
-        float(np.min(values, where=known, initial=np.inf)),
-        float(np.max(values, where=known, initial=-np.inf)),
-    )
-    if 0.0 < SPREAD * low < high:  # the ends of the path, where hardly any load is on it, would hide the rest
-        axes.set_yscale("log")
-        axes.tick_params(which="minor", labelsize=page.small, colors=INK)
-        for axis in (axes.yaxis.set_major_formatter, axes.yaxis.set_minor_formatter):
-            axis(page.parts.ticker.LogFormatter(labelOnlyBase=False, minor_thresholds=(2, 0.5)))
-    elif known.any():
-        axes.set_ylim(bottom=min(0.0, 1.1 * low))
-    for chosen, level, marker, name in (
-        (np.isnan(values), 0.03, "x", "no result"),
-        (np.isinf(values), 0.97, "^", "any multiple is carried"),
-    ):
-        if chosen.any():
-            ends = axes.get_xaxis_transform()
-            heights = np.full(int(chosen.sum()), level)
-            axes.plot(place[chosen], heights, marker, color=WARNING, transform=ends, markersize=1.3 * size, label=name)

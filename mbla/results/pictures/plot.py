@@ -10,7 +10,8 @@ from pathlib import Path
 from mbla.errors import UsageError
 from mbla.results.pictures import drawing
 from mbla.results.pictures.animation import format_of_film, write_animation
-from mbla.results.pictures.history import draw_curve, draw_history, draw_series
+from mbla.results.pictures.history import draw_curve, draw_history
+from mbla.results.pictures.influence_line import draw_series
 from mbla.results.pictures.options import KINDS, USUAL_KINDS, PictureOptions, format_of, is_single
 from mbla.results.pictures.page import PictureFile, write_pictures
 from mbla.results.pictures.scene import PictureScene, scene_of

@@ -12,7 +12,7 @@ from mbla.errors import UsageError
 from mbla.results.listing.text import counted
 from mbla.results.listing.verdict_words import verdict
 from mbla.results.outcome import best_iterate
-from mbla.results.pictures import history, plot
+from mbla.results.pictures import influence_line, plot
 from mbla.results.pictures.camera import view_of_case
 from mbla.results.pictures.image import drawn_image
 from mbla.results.pictures.options import PictureOptions
@@ -76,7 +76,7 @@ def series_figures(results: Results, series: Series) -> ReportFigures:
         return ReportFigures(())
     scene = scene_of(results, series.cases[0], OPTIONS, "history")
     caption, words = f"Travelling load {series.name}", "Load factor at each position"
-    write = partial(history.draw_series, scene=scene, series=series, options=OPTIONS)
+    write = partial(influence_line.draw_series, scene=scene, series=series, options=OPTIONS)
     return _added(ReportFigures(()), caption, words, "svg", write)
 
 
