@@ -28,6 +28,8 @@ def _unused(tree: Tree, content: DeckContent, parameters: Parameters) -> Iterato
     for section, name in (*unused, *unused_names(tree.data)):
         identifier = f"{section.removesuffix('s')}-unused"
         path = (section, name)
+        if section == "vehicles" and tree.source_of(tree.value_mark(path)) is not tree.sources[0]:
+            continue  # one of a library
         yield Notice("notice", identifier, f"{tree.place_at(path)} {key_text(path)} is not used")
 
 

@@ -118,3 +118,13 @@ def test_number_of_files_is_limited(tmp_path: Path) -> None:
 def test_what_an_included_file_supplies_is_not_missing(tmp_path: Path) -> None:
     write(tmp_path, BLOCK, "more.yaml")
     assert read_deck(write(tmp_path, "include: [more.yaml]\n")).content.title == "A block on the ground"
+
+
+def test_an_included_library_of_vehicles_is_added_to_and_need_not_be_used(tmp_path: Path) -> None:
+    write(tmp_path, 'vehicles: {cart: {force: [0, 0, "-2 kN"]}, van: {force: [0, 0, "-9 kN"]}}\n', "more.yaml")
+    path = write(tmp_path, INCLUDING + "vehicles: {cart: {width: 2}, own: {force: [0, 0, -1]}}\n")
+    deck = read_deck(path)
+    assert deck.content.vehicles["cart"].force == (0.0, 0.0, -2000.0)
+    assert deck.content.vehicles["cart"].width == 2.0
+    told = [notice.message for notice in deck.notices if notice.identifier == "vehicle-unused"]
+    assert [text.split()[1] for text in told] == ["vehicles.cart", "vehicles.own"]

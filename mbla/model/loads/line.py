@@ -20,7 +20,7 @@ from mbla.errors import Finding, KeyPath
 from mbla.model.applied_load import AppliedLoad, sum_on_blocks, wrenches_of
 from mbla.model.fill.dispersal import Spread
 from mbla.model.loads.blocks_under import Below
-from mbla.model.loads.load_footprint import PARALLEL, LoadFootprint, level
+from mbla.model.loads.load_footprint import PARALLEL, LoadFootprint, Tread, level
 from mbla.model.loads.load_kind import Entry, LoadKind, LoadSite
 from mbla.model.wording import counted, vector
 
@@ -89,7 +89,7 @@ def _landed(footprint: LoadFootprint, line: LineLoad, begin: FloatArray, end: Fl
             _refuse_bare(line, ends, bare, footprint.path, site)
         return None if bare.any() else footprint.of_line(begin, end)
     across = end - begin
-    if not footprint.sound(np.array([line.force_per_length]), across, 0.0):
+    if not footprint.sound(np.array([line.force_per_length]), across, Tread()):
         return None
     along, width = level([across[1], -across[0]]), float(np.hypot(across[0], across[1]))
     found = footprint.of((begin + end) / 2, along, width)

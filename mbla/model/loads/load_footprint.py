@@ -5,12 +5,12 @@ over which it is shared, or through fill on all blocks that it spreads to.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 
-from mbla.arrays import FloatArray, IntArray
+from mbla.arrays import FloatArray, IntArray, summed
 from mbla.errors import Finding, KeyPath, Notice
 from mbla.model.applied_load import sum_on_blocks, wrenches_of
 from mbla.model.fill.dispersal import Spread, beside, emerging, spread
@@ -25,6 +25,22 @@ UPRIGHT = 1e-9
 """horizontal component relative to a force, a line or a path, up to which it is none"""
 NEAR = 1e-3
 """share of the size of a block that a load may stand beside the fill, or a block rise out of it under the load"""
+GAUSS = 0.5 / 3**0.5
+"""of the side of a contact, from its middle to the two places that stand for it: its second moment is theirs"""
+
+
+@dataclass(frozen=True)
+class Tread:
+    """How an axle stands: on a line across, at a point, or on two wheels.
+
+    width   : of the line; 0 for none
+    gauge   : distance of two wheels across; 0 for none
+    contact : sides, along and across, of the rectangle under each wheel; 0 for a point
+    """
+
+    width: float = 0.0
+    gauge: float = 0.0
+    contact: tuple[float, float] = (0.0, 0.0)
 
 
 def on_blocks(landed: Sequence[Spread], forces: FloatArray, site: LoadSite) -> tuple[IntArray, FloatArray]:
@@ -60,6 +76,30 @@ class LoadFootprint:
             return self.of_line(place - across, place + across)
         block = self.below.at(place[None])
         return Spread(block, np.ones(1), place[None], 0.0) if block[0] >= 0 else None
+
+    def of_axle(self, place: FloatArray, along: FloatArray, tread: Tread) -> Spread | None:
+        """Of an axle with its middle at a place, (3,), each wheel with half of it; as ``of`` otherwise.
+
+        On blocks the contact of a wheel is two lines along the way, which are divided where the blocks are; in fill
+        four points, each of which spreads to all sides.
+        """
+        if tread.gauge == 0.0:
+            return self.of(place, along, tread.width)
+        across = np.array([-along[1], along[0], 0.0])
+        length, aside = tread.contact[0] * along, GAUSS * tread.contact[1] * across
+        wheels = [place + side * tread.gauge / 2 * across for side in (-1.0, 1.0)]
+        if not any(tread.contact):
+            found = [self.of(wheel, along, 0.0) for wheel in wheels]
+        elif self.through is None:
+            lines = [wheel + side * aside for wheel in wheels for side in (-1.0, 1.0)]
+            found = [self.of_line(middle - length / 2, middle + length / 2) for middle in lines]
+        else:
+            corners = [end * GAUSS * length + side * aside for end in (-1.0, 1.0) for side in (-1.0, 1.0)]
+            law = self.through.dispersal.model_copy(update={"contact": None})
+            on = replace(self, through=replace(self.through, dispersal=law))
+            found = [on.of(wheel + corner, along, 0.0) for wheel in wheels for corner in corners]
+        landed = [each for each in found if each is not None]
+        return _together(landed) if len(landed) == len(found) else None
 
     def of_line(self, begin: FloatArray, end: FloatArray) -> Spread | None:
         """Of a force that is shared evenly over a line; None where part of it lies over no block."""
@@ -132,18 +172,20 @@ class LoadFootprint:
         blocks = self.site.blocks
         return Below(blocks, np.array([0.0, 0.0, -1.0]), np.arange(len(blocks)))
 
-    def sound(self, forces: FloatArray, way: FloatArray, width: float) -> bool:
+    def sound(self, forces: FloatArray, way: FloatArray, tread: Tread) -> bool:
         """Whether forces (n, 3) that come along a way, (3,), can be spread so; a fault where not.
 
         In fill they are vertical; what spreads, or has a width, needs to know what across is.
         """
+        width = tread.width or tread.gauge
         flat = float(np.abs(way[:2]).max())
         if (self.through is not None or width > 0.0) and flat <= UPRIGHT * float(np.abs(way).max()):
             words = "is upright: what is level and across it is not known"
             self.site.refuse(Finding("degenerate-line", words, *self.path))
             return False
         across = np.cross([0.0, 0.0, 1.0], level(way))
-        if width > 0.0 and self.through is None and np.linalg.norm(np.cross(across, self.below.down)) <= PARALLEL:
+        lines = [across] * (width > 0.0) + [level(way)] * any(tread.contact)
+        if self.through is None and any(np.linalg.norm(np.cross(each, self.below.down)) <= PARALLEL for each in lines):
             words = "looks for its blocks along the width of its axles: give another direction with towards"
             self.site.refuse(Finding("degenerate-line", words, *self.path))
             return False
@@ -197,6 +239,18 @@ class LoadFootprint:
                 f"{named(others, blocks.name)} from beside, and is left out: give what it does there as loads"
             )
             self.site.warn("load-off-fill", message)
+
+
+def _together(parts: Sequence[Spread]) -> Spread:
+    """Where equal parts of a load land, as one; a part that lands on no block goes beyond."""
+    shares = np.concatenate([each.shares for each in parts]) / len(parts)
+    points = np.concatenate([each.points for each in parts])
+    blocks, row = np.unique(np.concatenate([each.blocks for each in parts]), return_inverse=True)
+    total = summed(row, shares, len(blocks))
+    means = summed(row, shares[:, None] * points, len(blocks)) / total[:, None]
+    beyond = float(np.mean([each.beyond if len(each.blocks) else 1.0 for each in parts]))
+    met = float(np.mean([each.met if len(each.blocks) else 0.0 for each in parts]))
+    return Spread(blocks, total, means, beyond, met, np.unique(np.concatenate([each.others for each in parts])))
 
 
 def share_of(forces: FloatArray, shares: Sequence[float]) -> float:

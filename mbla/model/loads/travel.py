@@ -26,7 +26,7 @@ from mbla.errors import Finding, KeyPath, Notice
 from mbla.model.applied_load import AppliedLoad
 from mbla.model.fill.dispersal import Spread
 from mbla.model.loads.blocks_under import Below
-from mbla.model.loads.load_footprint import LoadFootprint, level, on_blocks, share_of
+from mbla.model.loads.load_footprint import LoadFootprint, Tread, level, on_blocks, share_of
 from mbla.model.loads.load_kind import CaseKind, Entry, LoadSite, Variant
 from mbla.model.loads.vehicle import Axles, axles_in_row, axles_of, remark_upwards
 from mbla.model.selectors import select_blocks
@@ -96,10 +96,10 @@ def travel_variants(
         Below(site.blocks, np.array(travel.towards), chosen), site.fill[through] if through else None, path, site
     )
     steps = np.diff(np.array(travel.path), axis=0)
-    if not all(footprint.sound(axles.forces, step, axles.width) for step in steps):
+    if not all(footprint.sound(axles.forces, step, axles.tread) for step in steps):
         return []
     before = len(site.selection.faults)
-    found = [_landed(footprint, travel, axles.width, *each) for each in vehicle]
+    found = [_landed(footprint, travel, axles.tread, *each) for each in vehicle]
     bare = [(number, place) for number, (_, place) in enumerate(found, start=1) if place is not None]
     if bare and len(site.selection.faults) == before and not site.selection.partial:
         _refuse_bare(bare, len(vehicle), footprint)
@@ -110,7 +110,7 @@ def travel_variants(
         if footprint.through is not None:
             points[:, 2] = footprint.through.tops(points)
         under = np.array([_most(each) for each in landed])
-        spread = footprint.through is not None or axles.width > 0.0
+        spread = footprint.through is not None or axles.tread != Tread()
         position = TravelPosition(name, number, len(vehicle), points, distances, forces, under, spread)
         applied = replace(_applied(position, landed, footprint), follows=entry.load.follows)
         positions.append(Variant(applied, TravelQuestion(position)))
@@ -123,7 +123,7 @@ def _axles(travel: Travel, site: LoadSite) -> Axles:
     if travel.vehicle is not None:
         return axles_of(site.vehicles[travel.vehicle])
     assert travel.force is not None  # a rule of the deck: a force, or a vehicle
-    return axles_in_row(travel.force, travel.axles or [], travel.width)
+    return axles_in_row(travel.force, travel.axles or [], Tread(travel.width or 0.0))
 
 
 Landed: TypeAlias = Sequence[Spread | None]
@@ -131,14 +131,14 @@ Landed: TypeAlias = Sequence[Spread | None]
 
 
 def _landed(
-    footprint: LoadFootprint, travel: Travel, width: float, points: FloatArray, distances: FloatArray, acting: BoolArray
+    footprint: LoadFootprint, travel: Travel, tread: Tread, points: FloatArray, distances: FloatArray, acting: BoolArray
 ) -> tuple[Landed, FloatArray | None]:
     """Where the axles land, and the first place, (3,), where one lies over no block; on fill, where all of them do."""
     found: list[Spread | None] = [None] * len(points)
     bare = []
     for axle in np.flatnonzero(acting).tolist():
         way = level(_way_at(travel, float(distances[axle])))
-        found[axle] = footprint.of(points[axle], way, width)
+        found[axle] = footprint.of_axle(points[axle], way, tread)
         if found[axle] is None:
             bare.append(points[axle])
     if not bare and not any(each is not None and len(each.blocks) for each in found):

@@ -16,7 +16,7 @@ from mbla.deck.sections.vehicles import DOWN, TOWARDS, Axle, Vehicle
 from mbla.errors import Finding
 from mbla.model.applied_load import AppliedLoad
 from mbla.model.loads.blocks_under import Below
-from mbla.model.loads.load_footprint import LoadFootprint, level, on_blocks
+from mbla.model.loads.load_footprint import LoadFootprint, Tread, level, on_blocks
 from mbla.model.loads.load_kind import Entry, LoadKind, LoadSite
 from mbla.model.solids.plane import unit
 from mbla.model.wording import counted, vector
@@ -39,23 +39,26 @@ class Axles:
 
     forces : (n, 3), the first one first
     behind : (n,) distance of each behind the first
-    width  : over which each is shared across; 0 at a point
+    tread  : how each stands
     """
 
     forces: FloatArray
     behind: FloatArray
-    width: float
+    tread: Tread
 
 
-def axles_in_row(force: Sequence[float], others: Sequence[Axle], width: float | None) -> Axles:
+def axles_in_row(force: Sequence[float], others: Sequence[Axle], tread: Tread) -> Axles:
     """Axles by the force of the first one, (3,), and those behind it."""
     forces = np.array([force, *(axle.force for axle in others)])
-    return Axles(forces, np.array([0.0, *(axle.behind for axle in others)]), width or 0.0)
+    return Axles(forces, np.array([0.0, *(axle.behind for axle in others)]), tread)
 
 
 def axles_of(vehicle: Vehicle) -> Axles:
     """Axles of a vehicle of the deck."""
-    return axles_in_row(vehicle.force, vehicle.axles, vehicle.width)
+    tread = Tread(vehicle.width or 0.0)
+    if vehicle.wheels is not None:
+        tread = Tread(gauge=vehicle.wheels.gauge, contact=vehicle.wheels.contact or (0.0, 0.0))
+    return axles_in_row(vehicle.force, vehicle.axles, tread)
 
 
 def remark_upwards(forces: FloatArray, where: str, site: LoadSite) -> None:
@@ -78,10 +81,10 @@ def vehicle_load(entry: Entry, blocks: IntArray | None, site: LoadSite) -> Appli
     remark_upwards(entry.load.factor * axles.forces, ".".join(map(str, here)), site)
     footprint = LoadFootprint(Below(site.blocks, np.array(stands.towards), chosen), through, here, site)
     way = unit(stands.along)
-    if not footprint.sound(axles.forces, way, axles.width):
+    if not footprint.sound(axles.forces, way, axles.tread):
         return None
     places, before = np.array(stands.at) - axles.behind[:, None] * way, len(site.selection.faults)
-    found = [footprint.of(place, level(way), axles.width) for place in places]
+    found = [footprint.of_axle(place, level(way), axles.tread) for place in places]
     words = f"vehicle {stands.name} at {vector(stands.at)} {site.units.length} along {vector(way)}"
     bare = [place for place, each in zip(places, found, strict=True) if each is None]
     if bare or not any(each is not None and len(each.blocks) for each in found):

@@ -43,10 +43,9 @@ def draw_series(path: Path, scene: PictureScene, series: Series, options: Pictur
     positions = [case.load_case.question.place for case in series.cases]
     words = [scene.words_of("model")[0], f"load case {series.name}: load factor over {len(positions)} positions"]
     worst = None if series.worst is None else series.worst.load_case.question.place
-    if worst is not None:
-        words.append(
-            f"worst at position {worst.number}, {standing_words(scene.model, worst)}: {number(figure_of(series.worst))}"
-        )
+    if series.worst is not None and worst is not None:
+        least = number(figure_of(series.worst))
+        words.append(f"worst at position {worst.number}, {standing_words(scene.model, worst)}: {least}")
     missing = int(np.isnan([figure_of(case) for case in series.cases]).sum())
     mark = f"NOT VERIFIED: {missing} of {len(positions)} positions without a result" if missing else ""
     with open_diagrams(path, options, words, mark) as sheet:

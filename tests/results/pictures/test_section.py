@@ -56,6 +56,7 @@ def test_a_path_along_a_joint_cuts_one_of_the_blocks_beside_it(bridge: Model) ->
     assert len(cut_blocks(bridge.blocks, inside)) == len(cut_blocks(bridge.blocks, ALONG_X))
     beside = SectionPlane(np.array([0.0, 9.0, 0.0]), ALONG_X.along, ALONG_X.across)
     assert cut_blocks(bridge.blocks, beside) == []
+    assert bridge.fill is not None
     assert cut_fill(bridge.fill.bodies["road"], beside) == []
 
 
