@@ -49,16 +49,16 @@ class Usual:
     typical: str = ""
 
     def remark(self, value: float, units: Units) -> str:
-        """What is odd about a value; nothing where it is between the limits."""
+        """What is odd about a value; nothing where its size is between the limits."""
         ends = (self.least, self.most)
         low, high = (units.convert(end, self.dimension) if isinstance(end, str) else end for end in ends)
-        if low <= value <= high:
+        if low <= abs(value) <= high:
             return ""
         if not self.meant:
             return self.words
         remark = f"is {value:.6g} {units.unit(self.dimension)}, {self.words}"
         typical = units.convert(self.typical, self.dimension)
-        others = {unit: units.convert(f"{value:.15g} {unit}", self.dimension) for unit in self.meant}
+        others = {unit: units.convert(f"{abs(value):.15g} {unit}", self.dimension) for unit in self.meant}
         unit = min(others, key=lambda unit: abs(math.log(others[unit] / typical)))
         return f'{remark}; "{value:.6g} {unit}" may be meant' if low <= others[unit] <= high else remark
 

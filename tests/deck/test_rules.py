@@ -192,6 +192,11 @@ def test_gravity_three_per_cent_off_as_live_load(tmp_path: Path) -> None:
             "pressure: {normal: [-1, 0, 0], level: 2, per_depth: 6}",
             'per_depth = 6: is 6 N/m^3, and that of earth and water is 1 to 30 kN/m^3; "6 kN/m^3" may be meant',
         ),
+        (
+            "acceleration: [1, 0, 0]",
+            "pressure: {normal: [-1, 0, 0], level: 2, per_depth: -6}",
+            'per_depth = -6: is -6 N/m^3, and that of earth and water is 1 to 30 kN/m^3; "-6 kN/m^3" may be meant',
+        ),
         ("density: 2000", "density: 20", "materials.stone.density = 20: is not that of masonry, 1500 to 3000 kg/m^3"),
         ("unit_weight: 20e3", "unit_weight: 20", "materials.stone.unit_weight = 20: is not that of masonry"),
         ("[1, 0, 0]}]", "[9.81, 0, 0]}]", "live[0].acceleration = [9.81, 0, 0]: is in units of g = 9.81 m/s^2"),
