@@ -23,7 +23,9 @@ def add(commands: Any) -> None:
         "(default: the first three, and the history of a load that travels; the mechanism where -o names a file)"
     )
     command.add_argument("--kind", metavar="KIND", help=words)
-    command.add_argument("--case", metavar="NAME", help="only this load case")
+    command.add_argument(
+        "--case", metavar="NAME", help="only this load case; of a load that travels the worst position"
+    )
     words = "moving pictures of the mechanisms in the place of pictures, with --kind curve of the steps of a pushover"
     command.add_argument("--animate", choices=["gif", "mp4"], help=words)
     words = "front, back, left, right, top, iso, below, auto, or AZIMUTH,ELEVATION in degrees, as --view=-60,25"

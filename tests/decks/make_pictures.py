@@ -6,7 +6,6 @@
 
 from __future__ import annotations
 
-import shutil
 import sys
 import tempfile
 from collections.abc import Callable
@@ -19,7 +18,6 @@ import numpy as np
 from PIL import Image
 
 from mbla.cli import main
-from mbla.results.hdf5.result_file import read_results_hdf5
 from mbla.results.pictures.options import PictureOptions
 from mbla.results.pictures.page import (
     CASES,
@@ -42,7 +40,6 @@ from mbla.results.pictures.page import (
     open_page,
     rgb,
 )
-from mbla.results.series import series_of
 from mbla.sweeps.tables.sweep_json import read_sweep_table
 from mbla.sweeps.tables.sweep_table import SweepTable
 from tests.analytic.frictional_arch import least_friction, least_thickness, rotational_friction
@@ -73,7 +70,6 @@ class DeckPicture:
     case : load case; of a travelling load its name in the deck, the worst position is drawn
     plot : options of ``mbla plot``, of pictures in space their size
     strengthened : it is of what ``mbla strengthen`` finds
-    positions : it is the load factor of a travelling load over its positions
     """
 
     name: str
@@ -81,7 +77,6 @@ class DeckPicture:
     case: str
     plot: tuple[str, ...] = ()
     strengthened: bool = False
-    positions: bool = False
 
     @property
     def path(self) -> Path:
@@ -110,7 +105,7 @@ TABLE = (
     DeckPicture("colonnade_across", "structures/colonnade.yaml", "across", SMALLER),
     DeckPicture("arch_bridge", "structures/arch_bridge.yaml", "axle", SMALLER),
     DeckPicture("filled_bridge", "structures/filled_bridge.yaml", "lorry", SMALLER),
-    DeckPicture("filled_bridge_positions", "structures/filled_bridge.yaml", "lorry", positions=True),
+    DeckPicture("filled_bridge_positions", "structures/filled_bridge.yaml", "lorry", ("--kind", "history")),
     DeckPicture("cross_vault_on_piers_spreading", "structures/cross_vault_on_piers.yaml", "spreading", SMALLER),
     DeckPicture("dome_on_drum_push_x", "structures/dome_on_drum.yaml", "push_x", SMALLER),
     DeckPicture("spiral_stair_one_tread", "structures/spiral_stair.yaml", "one_tread", SMALLER),
@@ -148,16 +143,7 @@ def make_picture(picture: DeckPicture, folder: Path) -> Path:
         command = "strengthen" if picture.strengthened else "run"
         status = main([command, str(deck), "-o", str(out), "--set", "output.vtu=false", "-q"])
         assert status in (0, 4, 5), f"{deck}: mbla run ended with {status}"
-    case = picture.case
-    if picture.positions:
-        drawn = folder / picture.name
-        assert main(["plot", str(result), "--kind", "history", "--format", "svg", "-o", str(drawn)]) == 0
-        shutil.copyfile(drawn / f"{deck.stem}_{case}_history.svg", picture.path)
-        return picture.path
-    for series in series_of(read_results_hdf5(result).cases):
-        if series.name == case and series.worst is not None:
-            case = series.worst.load_case.name
-    assert main(["plot", str(result), "--case", case, "-o", str(picture.path), *picture.plot]) == 0
+    assert main(["plot", str(result), "--case", picture.case, "-o", str(picture.path), *picture.plot]) == 0
     return with_palette(picture.path)
 
 

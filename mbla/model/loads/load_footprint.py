@@ -11,6 +11,7 @@ from functools import cached_property
 import numpy as np
 
 from mbla.arrays import FloatArray, IntArray, summed
+from mbla.deck.units import Units
 from mbla.errors import Finding, KeyPath, Notice
 from mbla.model.applied_load import sum_on_blocks, wrenches_of
 from mbla.model.fill.dispersal import Spread, beside, emerging, spread
@@ -41,6 +42,10 @@ class Tread:
     width: float = 0.0
     gauge: float = 0.0
     contact: tuple[float, float] = (0.0, 0.0)
+
+    def words(self, units: Units) -> str:
+        """Of its wheels, for the listing."""
+        return f" on wheels {self.gauge:.6g} {units.length} apart" if self.gauge > 0.0 else ""
 
 
 def on_blocks(landed: Sequence[Spread], forces: FloatArray, site: LoadSite) -> tuple[IntArray, FloatArray]:

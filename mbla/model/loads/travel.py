@@ -112,7 +112,7 @@ def travel_variants(
         under = np.array([_most(each) for each in landed])
         spread = footprint.through is not None or axles.tread != Tread()
         position = TravelPosition(name, number, len(vehicle), points, distances, forces, under, spread)
-        applied = replace(_applied(position, landed, footprint), follows=entry.load.follows)
+        applied = replace(_applied(position, landed, footprint, axles.tread), follows=entry.load.follows)
         positions.append(Variant(applied, TravelQuestion(position)))
     _remark_parts(name, axles.forces, [landed for landed, _ in found], footprint)
     return positions
@@ -189,12 +189,13 @@ def _most(landed: Spread | None) -> int:
     return -1 if landed is None or not len(landed.blocks) else int(landed.blocks[np.argmax(landed.shares)])
 
 
-def _applied(position: TravelPosition, landed: Landed, footprint: LoadFootprint) -> AppliedLoad:
+def _applied(position: TravelPosition, landed: Landed, footprint: LoadFootprint, tread: Tread) -> AppliedLoad:
     """The forces on the path, on the blocks they land on, which may be the same for some."""
     site, units = footprint.site, footprint.site.units
     there = [(axle, each) for axle, each in enumerate(landed) if each is not None and len(each.blocks)]
     blocks, wrenches = on_blocks([each for _, each in there], position.forces[[axle for axle, _ in there]], site)
-    through = f" through fill {footprint.through.name}" if footprint.through is not None else ""
+    through = tread.words(units)
+    through += f" through fill {footprint.through.name}" if footprint.through is not None else ""
     each_on = [
         f"force {vector(position.forces[axle])} {units.force} at {vector(position.points[axle])} {units.length}"
         f"{through} on {_blocks_in_words(each, site)}"

@@ -101,7 +101,7 @@ def vehicle_load(entry: Entry, blocks: IntArray | None, site: LoadSite) -> Appli
     unique, total = on_blocks(landed, axles.forces, site)
     footprint.remark_beyond(words, axles.forces, landed)
     footprint.remark_met(words, axles.forces, landed)
-    spread = "" if through is None else f" through fill {through.name}"
+    spread = axles.tread.words(site.units) + ("" if through is None else f" through fill {through.name}")
     return AppliedLoad(
         unique, total, f"{words}, {counted(len(places), 'axle')}{spread} on {counted(len(unique), 'block')}"
     )

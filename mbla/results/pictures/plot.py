@@ -28,7 +28,8 @@ def plot_results(results: Results, target: Path, stem: str, options: PictureOpti
     ``options.animate`` ``STEM_CASE.gif`` or ``.mp4`` for each load case that has a motion.
 
     target : a file with the suffix .png, .svg or .pdf, for a single picture; else a folder, created if missing
-    options.case : one load case, or all positions of a travelling load by its name in the deck
+    options.case : one load case, or of a travelling load by its name in the deck those of its positions that are
+        reported in full, and as history the load factor over all of them
 
     Raises
     ------
@@ -46,10 +47,11 @@ def plot_results(results: Results, target: Path, stem: str, options: PictureOpti
 
 
 def _chosen_cases(results: Results, name: str | None) -> Sequence[CaseResult]:
-    """The case of that name, or all positions of a travelling load; unless named those reported in full."""
+    """Those of that name that are reported in full, as the worst of the positions of a travelling load is."""
     if not results.cases:
         raise no_such_case(results, name)
-    return detailed_cases(results.cases) if name is None else chosen_cases(results, [name])
+    chosen = chosen_cases(results, None if name is None else [name])
+    return chosen if name in {case.load_case.name for case in chosen} else detailed_cases(chosen)
 
 
 def pictures_of(results: Results, cases: Sequence[CaseResult], options: PictureOptions) -> list[PictureFile]:
@@ -64,6 +66,8 @@ def pictures_of(results: Results, cases: Sequence[CaseResult], options: PictureO
     names = _mechanism_names([case.load_case.name for case in cases])
     for case in cases:
         drawn = {"model"} if case.solution.further.pushover.curve or len(options.kinds) == 1 else {"model", "curve"}
+        if case.load_case.name != case.load_case.deck_name == options.case:
+            drawn.add("history")  # of all positions, below
         for kind in (kind for kind in options.kinds if kind not in drawn):
             name = names[case.load_case.name] if kind == "mechanism" else f"_{case.load_case.name}_{kind}"
             pictures.append(PictureFile(name, of(case, kind)))

@@ -37,9 +37,10 @@ EACH = 0.5 / np.sqrt(3)
 """of the side of a contact, the two places that stand for it"""
 
 
-def field(folder: Path, wheels: str, middle: float, through: bool, dispersal: str = "") -> Model:
-    """A vehicle of 60 kN and, 3 m behind, 40 kN on the field, the first axle at x = 4.9."""
+def field(folder: Path, wheels: str, middle: float, through: bool, dispersal: str = "", path: str = "") -> Model:
+    """A vehicle of 60 kN and, 3 m behind, 40 kN on the field, the first axle at x = 4.9, or along a path."""
     load = f"vehicle: {{name: lorry, at: [4.9, {middle}, 1]}}"
+    load = f"travel: {{vehicle: lorry, {path}}}" if path else load
     text = DECK.format(
         blocks="\n".join(f"  - {block}" for block in FIELD),
         load=load + (", through: soil" if through else ""),
@@ -53,9 +54,9 @@ def field(folder: Path, wheels: str, middle: float, through: bool, dispersal: st
     return build_model(read_deck(folder / "deck.yaml"))
 
 
-def on_field(found: Model) -> FloatArray:
+def on_field(found: Model, case: int = 0) -> FloatArray:
     """Load on the blocks, (6, 3) along and across."""
-    return shares(found).reshape(6, 3)
+    return shares(found, case).reshape(6, 3)
 
 
 def test_wheels_on_blocks(tmp_path: Path) -> None:
@@ -92,6 +93,11 @@ def test_wheels_on_fill(tmp_path: Path, contact: str) -> None:
         expected += force * np.outer(along, across)
     assert found == pytest.approx(expected, abs=1e-6)
     assert found.sum() == pytest.approx(100)
+    travels = field(
+        tmp_path, f"gauge: 1{contact}", 1.4, True, law, "path: [[1.9, 1.4, 1], [4.9, 1.4, 1]], positions: 3"
+    )
+    assert on_field(travels, 1) == pytest.approx(found)
+    assert " m on wheels 1 m apart through fill soil on " in travels.load_cases[1].live_words[0]
 
 
 def test_contact_of_wheels_takes_the_place_of_that_of_the_spread(tmp_path: Path) -> None:
