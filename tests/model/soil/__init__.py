@@ -1,0 +1,1 @@
+"""Soil as rigid cells."""
