@@ -64,6 +64,7 @@ GIVEN_TO_KINDS = {
     "deck/sections/geometry_file.py",
     "deck/sections/placement.py",
     "deck/sections/selectors.py",
+    "deck/sections/soil.py",
     "deck/sections/supports.py",
     "deck/sections/vehicles.py",
     "deck/suggestions.py",

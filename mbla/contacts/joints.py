@@ -1,5 +1,9 @@
 """Which joint law each interface has: the section's, the ground's, or that of the last override that fits.
 
+Interfaces of soil of cells have the laws of the soil: between its cells and on ground one, on other blocks another,
+between two soils that of less friction. Of overrides those with ``between`` hold for them, as others, such as of all
+bed joints, mean masonry.
+
 The law that a table of interfaces gives for one of them holds before all others.
 
 An override fits where all its conditions hold:
@@ -77,6 +81,7 @@ def joints_of_interfaces(
     rows = np.full(len(bodies), names.index(section.joint))
     for index, ground in enumerate(model.grounds):
         rows[bodies[:, 0] == n_blocks + index] = names.index(ground.joint)
+    soil = _of_soil(model, bodies, names, rows)
     settled = np.zeros(len(rows), dtype=bool)
     if prescribed is not None:
         settled = np.array([bool(name) for name in prescribed], dtype=bool)
@@ -85,7 +90,9 @@ def joints_of_interfaces(
     notices = []
     for number, override in enumerate(section.overrides):
         fits = ~settled
-        if override.between is not None:
+        if override.between is None:
+            fits &= ~soil
+        else:
             first, second = (bodies_selected(each, selection, len(model.grounds))[bodies] for each in override.between)
             fits &= (first & second[:, ::-1]).any(axis=1)
         if override.orientation is not None:
@@ -98,6 +105,25 @@ def joints_of_interfaces(
             text = f"contacts.overrides[{number}], with joint {override.joint}, fits no contact and has no effect"
             notices.append(Notice("warning", "override-without-contact", text))
     return Laws(rows, names), notices
+
+
+def _of_soil(model: Model, bodies: IntArray, names: Sequence[str], rows: IntArray) -> BoolArray:
+    """Interfaces (n, 2) of soil, (n,), to which it gives their laws in ``rows``."""
+    if not model.soils:
+        return np.zeros(len(rows), dtype=bool)
+    own = np.full(len(model.blocks) + len(model.grounds), -1)
+    for number, soil in enumerate(model.soils):
+        own[soil.blocks] = number
+    joints, walls = (
+        np.array([names.index(getattr(soil, key)) for soil in model.soils]) for key in ("joint", "wall_joint")
+    )
+    friction = np.array([model.joints[soil.joint].friction for soil in model.soils])
+    first, second = own[bodies].T
+    weaker = np.where((first >= 0) & ((second < 0) | (friction[first] <= friction[second])), first, second)
+    on_block = ((first < 0) | (second < 0)) & (bodies < len(model.blocks)).all(axis=1)
+    found = weaker >= 0
+    rows[found] = np.where(on_block, walls[weaker], joints[weaker])[found]
+    return np.asarray(found)
 
 
 def laws_of_nearest(given: PrescribedInterfaces | None, bodies: IntArray, centroids: FloatArray) -> list[str] | None:

@@ -7,7 +7,7 @@ Sections stand in ``sections`` with their rules, kinds of items of `blocks` in `
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from graphlib import CycleError, TopologicalSorter
 from typing import Annotated, Any, Literal
 
@@ -25,12 +25,13 @@ from mbla.deck.sections.load_cases import LoadCaseSection
 from mbla.deck.sections.loads import AddedMass, Load
 from mbla.deck.sections.materials import JointLaw, Material
 from mbla.deck.sections.selectors import Selector
+from mbla.deck.sections.soil import SOIL
 from mbla.deck.sections.strengthen import StrengthenSection
 from mbla.deck.sections.supports import Support, SymmetryPlane
 from mbla.deck.sections.ties import TieSection
 from mbla.deck.sections.vehicles import Vehicle
 from mbla.deck.text.include import MAX_FILES
-from mbla.errors import Finding
+from mbla.errors import Finding, KeyPath
 
 
 def no_boolean(value: Any) -> Any:
@@ -173,6 +174,33 @@ def prescribed_interfaces_and_symmetry(deck: DeckContent) -> Iterator[Finding]:
             "or leave this out"
         )
         yield Finding("symmetry-broken", words, "contacts", "joint_thickness")
+
+
+@rule(DeckContent)
+def soil_of_cells(deck: DeckContent) -> Iterator[Finding]:
+    """Contacts of cells are found, and cells fit the blocks of the whole structure."""
+    fills: list[KeyPath] = [("fill", name, "cells") for name, fill in deck.fill.items() if fill.cells is not None]
+    items: list[KeyPath] = [("blocks", number, SOIL) for number, entry in enumerate(deck.blocks) if entry.kind == SOIL]
+    for path in (*fills, *items):
+        if deck.symmetry:
+            yield Finding("symmetry-broken", "does not go with symmetry: give the whole structure", *path)
+        if deck.contacts.table is not None:
+            words = "does not go with contacts.table, in which its cells are not: leave contacts to be found"
+            yield Finding("key-of-another-choice", words, *path)
+
+
+@rule(DeckContent)
+def loads_on_cells(deck: DeckContent) -> Iterator[Finding]:
+    """Loads spread through a fill that is a mass on blocks; cells carry them."""
+    lists: list[tuple[KeyPath, Sequence[Load]]] = [(("loads", name), loads) for name, loads in deck.loads.items()]
+    for name, case in deck.load_cases.items():
+        lists += [(("load_cases", name, key), getattr(case, key) or ()) for key in ("dead", "live")]
+    for path, loads in lists:
+        for number, load in enumerate(loads):
+            fill = deck.fill.get(load.through or "")
+            if fill is not None and fill.cells is not None:
+                words = f"{load.through} is soil of cells, which carry the load themselves: leave it out"
+                yield Finding("key-of-another-choice", words, *path, number, "through")
 
 
 MOST_LOADS = 100_000

@@ -18,6 +18,7 @@ from mbla.deck.sections.blocks import ITEM_KINDS
 from mbla.deck.sections.loads import LOAD_KEYS
 from mbla.deck.sections.materials import BUILT_IN
 from mbla.deck.sections.selectors import GROUND
+from mbla.deck.sections.soil import SOIL, laws_of_soil
 from mbla.deck.suggestions import unknown
 from mbla.deck.text.tree import Tree
 from mbla.errors import Fault, KeyPath, Message
@@ -126,10 +127,40 @@ def check_references(tree: Tree) -> Iterator[Fault]:
         if name == GROUND or name in known["group"]:
             words = f"{name} is a group of blocks already, or ground: choose another name"
             yield tree.fault(("groups", name), Message("reserved-name", words), at_key=True)
+    yield from _names_of_soil(tree, list(fills_of_cells(data)))
     for path, group in find(data, ["blocks", "#", "*", "group"]):
         if group == GROUND:
             words = f"{GROUND} stands for ground planes in contacts.overrides: choose another name"
             yield tree.fault(path, Message("reserved-name", words))
+
+
+def _names_of_soil(tree: Tree, cells: list[str]) -> Iterator[Fault]:
+    """Faults of names that soil gives its cells and their joint laws, and something else has."""
+    of_items = list(groups_of_items(tree.data))
+    soils = [group for kind, group in of_items if kind == SOIL]
+    for name in cells:
+        if name == GROUND or name in [group for _, group in of_items]:
+            words = f"{name} is a group of blocks already, or ground: the cells of a fill are a group of its name"
+            yield tree.fault(("fill", name), Message("reserved-name", words), at_key=True)
+    for name in dict.fromkeys(soils):
+        if [group for _, group in of_items].count(name) > 1:
+            path = next(
+                path for path, item in find(tree.data, ["blocks", "#", SOIL]) if (item or {}).get("group", SOIL) == name
+            )
+            words = f"{name} is the group of other items as well: soil has one of its own"
+            yield tree.fault(path, Message("reserved-name", words), at_key=True)
+    laws = {law for name in (*cells, *soils) for law in laws_of_soil(name)}
+    for law in _keys(tree.data.get("joints")):
+        if law in laws:
+            yield tree.fault(("joints", law), Message("reserved-name", f"{law} is the law of a soil"), at_key=True)
+
+
+def fills_of_cells(data: dict[str, Any]) -> Iterator[str]:
+    """Names of fills that are soil of cells."""
+    fills = data.get("fill")
+    for name, fill in (fills if isinstance(fills, dict) else {}).items():
+        if isinstance(fill, dict) and fill.get("cells") is not None:
+            yield name
 
 
 def unused_names(data: dict[str, Any]) -> Iterator[tuple[str, str]]:
@@ -147,14 +178,20 @@ def unused_names(data: dict[str, Any]) -> Iterator[tuple[str, str]]:
 
 
 def groups(data: dict[str, Any]) -> Iterator[str]:
-    """Names of the groups that the items of `blocks` make."""
+    """Names of the groups that the items of `blocks` make, and of those of soil above arches."""
+    yield from (group for _, group in groups_of_items(data))
+    yield from fills_of_cells(data)
+
+
+def groups_of_items(data: dict[str, Any]) -> Iterator[tuple[str, str]]:
+    """Kind of each item of `blocks`, and names of the groups that it makes."""
     for (_, _, kind), item in find(data, ["blocks", "#", "*"]):
-        if isinstance(item, dict) and kind in ITEM_KINDS:
+        if isinstance(item, dict) and isinstance(kind, str) and kind in ITEM_KINDS:
             group = item.get("group", kind)
             if isinstance(group, str):
-                yield group
+                yield kind, group
                 yield from (
-                    group + side.suffix for side in ITEM_KINDS[kind].groups if item.get(side.key) in side.values
+                    (kind, group + side.suffix) for side in ITEM_KINDS[kind].groups if item.get(side.key) in side.values
                 )
 
 

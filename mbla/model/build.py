@@ -1,4 +1,4 @@
-"""From the deck to the model: items, blocks, supports, masses, joints, loads, images, in this order.
+"""From the deck to the model: items, blocks, soil, supports, masses, joints, loads, images, in this order.
 
 The structure (blocks, supports, prescribed interfaces) depends on no load, joint law or setting of the analysis.
 """
@@ -6,12 +6,13 @@ The structure (blocks, supports, prescribed interfaces) depends on no load, join
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from types import MappingProxyType
 
 import numpy as np
 
-from mbla.arrays import BoolArray
+from mbla.arrays import BoolArray, FloatArray
 from mbla.deck.deck import Deck
 from mbla.deck.sections.load_cases import LoadCaseSection
 from mbla.deck.sections.loads import AddedMass
@@ -31,6 +32,7 @@ from mbla.model.objective import build_objective
 from mbla.model.outside import outside
 from mbla.model.selectors import BlockSelection, check_overrides, select_blocks
 from mbla.model.settlement import build_settlement
+from mbla.model.soil.build import Soils, build_soils
 from mbla.model.solids.blocks import PointMasses, joined_masses
 from mbla.model.solids.build import BuiltBlocks, build_blocks
 from mbla.model.solids.defects import far_away
@@ -42,13 +44,15 @@ from mbla.model.ties.ties import Ties, joined_ties
 from mbla.model.wording import named, vector
 
 
-def build_model(deck: Deck) -> Model:
+def build_model(deck: Deck, soil: Mapping[str, FloatArray] = MappingProxyType({})) -> Model:
     """The model that a checked deck describes.
+
+    soil : by name of a soil of cells, other places (n, 2) of the points of its mesh
 
     Raises DeckError with every fault found: items that cannot be built, blocks that are no blocks, selectors without
     blocks, supports and loads that do nothing.
     """
-    structure = structure_of(deck)
+    structure = structure_of(deck, soil)
     selection, supports, interfaces = structure.selection, structure.supports, structure.interfaces
     site = LoadSite(
         selection=selection,
@@ -76,7 +80,7 @@ def build_model(deck: Deck) -> Model:
         blocks=selection.blocks,
         fixed=supports.fixed,
         grounds=supports.grounds,
-        joints=build_joints(deck, supports.grounds, interfaces),
+        joints=build_joints(deck, supports.grounds, interfaces) | {law.name: law for law in structure.soils.joints},
         load_cases=load_cases,
         notices=(*structure.first_notices, *selection.notices),
         guides=supports.guides,
@@ -84,6 +88,7 @@ def build_model(deck: Deck) -> Model:
         ties=ties,
         bent=structure.bent,
         fill=structure.fill,
+        soils=structure.soils.meshes,
     )
     return with_images(deck, model)
 
@@ -117,6 +122,7 @@ class BuiltStructure:
     bent          : faces that were split
     fill          : soil on the blocks, None for none
     masses        : of it and of the deck, each by itself
+    soils         : of cells, which are among the blocks
     first_notices : before those on joint laws
     """
 
@@ -126,11 +132,12 @@ class BuiltStructure:
     bent: BentFaces
     fill: CarriedFill | None
     masses: PointMasses
+    soils: Soils
     first_notices: tuple[Notice, ...]
 
 
-def structure_of(deck: Deck) -> BuiltStructure:
-    """What the deck describes besides loads and joint laws."""
+def structure_of(deck: Deck, soil: Mapping[str, FloatArray] = MappingProxyType({})) -> BuiltStructure:
+    """What the deck describes besides loads and joint laws; ``soil`` as of ``build_model``."""
     faults: list[Fault] = []
     items = collect_items(deck, faults)
     built = build_blocks(items.polyhedra, items.labels, deck.contacts.tolerance)
@@ -141,14 +148,17 @@ def structure_of(deck: Deck) -> BuiltStructure:
     else:
         faults += defects_in_words(deck, built.defects, items.items, built.blocks)
     partial = items.partial | {built.blocks.groups[defect.block] for defect in built.defects}
-    selection = BlockSelection(built.blocks, partial, deck.fault_at, faults)
-    supports = build_supports(deck, Supports(items.fixed, items.grounds), items.surfaces, selection)
+    soils = build_soils(deck, BlockSelection(built.blocks, partial, deck.fault_at, faults), soil)
+    selection = BlockSelection(soils.blocks, partial | soils.partial, deck.fault_at, faults)
+    fixed = np.append(items.fixed, np.zeros(len(soils.blocks) - len(items.fixed), dtype=bool))
+    supports = build_supports(deck, Supports(fixed, (*items.grounds, *soils.grounds)), items.surfaces, selection)
     if not deck.content.symmetry:  # else images count among what they choose
         check_overrides(deck.contacts.overrides, selection)
     interfaces = read_interfaces(deck, selection, supports.grounds)
     masses = [point_masses(deck.content.masses, selection, supports.fixed, deck.units)]
     densities = {name: density_of(material, deck.units) for name, material in deck.content.materials.items()}
-    fill = build_fill(deck.content.fill, densities, selection, supports.fixed, deck.units, deck.contacts.tolerance)
+    masses_on = {name: each for name, each in deck.content.fill.items() if each.cells is None}
+    fill = build_fill(masses_on, densities, selection, supports.fixed, deck.units, deck.contacts.tolerance)
     if fill is not None:
         masses.append(fill.parts)
     carried = joined_masses(masses)
@@ -156,7 +166,7 @@ def structure_of(deck: Deck) -> BuiltStructure:
     sizes = () if faults else unusual_sizes(selection.blocks, supports.fixed, deck.units)
     first = (*items.notices, *built.notices, *([far] if isinstance(far, Notice) else []), *sizes)
     bent = replace(built.bent, items=items.items[built.bent.blocks])
-    return BuiltStructure(selection, supports, interfaces, bent, fill, carried, first)
+    return BuiltStructure(selection, supports, interfaces, bent, fill, carried, soils, first)
 
 
 def _with_closed_joints(deck: Deck, built: BuiltBlocks, items: CollectedItems, faults: list[Fault]) -> BuiltBlocks:

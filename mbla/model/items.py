@@ -91,7 +91,7 @@ def collect_items(deck: Deck, faults: list[Fault]) -> CollectedItems:
             parts += [replace(part, suffix=group + part.suffix) for part in own.parts]
             numbers += [number] * len(own.parts)
             n_blocks += sum(len(part.polyhedra) for part in own.parts)
-    if not parts:
+    if not parts and faults:
         raise DeckError(faults)
     labels = _labels(deck, parts)
     counts = [len(part.polyhedra) for part in parts]

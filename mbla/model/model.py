@@ -13,6 +13,7 @@ from mbla.deck.units import Units
 from mbla.errors import Notice, UsageError
 from mbla.model.applied_load import AppliedLoad
 from mbla.model.fill.fill import CarriedFill
+from mbla.model.soil.soil_mesh import SoilMesh
 from mbla.model.solids.blocks import Blocks
 from mbla.model.solids.facets import NO_BENT_FACES, BentFaces
 from mbla.model.supports.guides import NO_GUIDES, Guides, joined, together
@@ -155,6 +156,7 @@ class Model:
     ties        : ties, struts, rings and strips between blocks
     bent        : bent faces that were split into triangles, in contact with the same face of another block at most
     fill        : soil on blocks, counted among their added masses; None for none
+    soils       : soil of rigid cells, which are blocks
     """
 
     title: str
@@ -171,6 +173,7 @@ class Model:
     ties: Ties = NO_TIES
     bent: BentFaces = NO_BENT_FACES
     fill: CarriedFill | None = None
+    soils: tuple[SoilMesh, ...] = ()
 
     def of_case(self, load_case: LoadCase) -> Model:
         """The model as it may move under a load case: with the blocks of its settlement as a guided body."""

@@ -21,6 +21,16 @@ from mbla.deck.quantities import (
 )
 from mbla.deck.section import ROUNDING, Section, exactly_one_of, rule
 from mbla.deck.sections.selectors import Selector
+from mbla.deck.sections.soil import (
+    COHESION,
+    DILATANCY,
+    FRICTION_ANGLE,
+    TENSILE_STRENGTH,
+    WALL,
+    FillCells,
+    SoilWall,
+    soil_strengths,
+)
 from mbla.errors import Finding
 
 UPRIGHT = 1e-6
@@ -75,6 +85,12 @@ class Fill(Section):
     The column of soil over each piece of a face, along z, is a mass at the middle of the column, which moves with the
     block below: gravity and accelerations act on it. A face carries soil where it lies below the top surface and no
     other block lies above it. Loads that name the fill with `through` spread through it.
+
+    With `cells` it is no mass on blocks but soil that carries and slips: rigid cells, in the group of its name, that
+    fill what lies between the blocks and the top, between spandrel walls where there are any. The blocks are prisms
+    across one horizontal direction there. Joints between cells, and of cells with ground, have the law of the soil,
+    those with other blocks that of `wall`; of `contacts.overrides` those with `between` hold for them. Loads act on the
+    cells.
     """
 
     on: Selector = Field(description="blocks whose upward faces carry it")
@@ -83,6 +99,29 @@ class Fill(Section):
     surface: TopPlane | None = Field(None, description="sloping top surface")
     dispersal: Dispersal = Field(default_factory=Dispersal, description="how loads on the top spread through the fill")
     passive: Passive | None = Field(None, description="lateral resistance of the soil at sloping faces; default: none")
+    cells: FillCells | None = Field(None, description="soil as rigid cells; default: a mass on the blocks")
+    friction_angle: FrictionAngle | None = Field(None, description=f"cells: {FRICTION_ANGLE}; must be given")
+    cohesion: NonNegativeStress = Field(0.0, description=f"cells: {COHESION}")
+    tensile_strength: NonNegativeStress = Field(0.0, description=f"cells: {TENSILE_STRENGTH}")
+    dilatancy: FrictionAngle = Field(0.0, description=f"cells: {DILATANCY}")
+    wall: SoilWall = Field(default_factory=SoilWall, description=f"cells: {WALL}")
+
+
+OF_CELLS = ("friction_angle", "cohesion", "tensile_strength", "dilatancy", "wall")
+OF_MASSES = ("dispersal", "passive")
+rule(Fill)(soil_strengths)
+
+
+@rule(Fill)
+def mass_or_cells(fill: Fill) -> Iterator[Finding]:
+    """What says how a mass on blocks is loaded and holds them says nothing about cells, which slip, and the reverse."""
+    if fill.cells is not None and fill.friction_angle is None:
+        yield Finding("missing-key", "needs friction_angle with cells")
+    without = OF_CELLS if fill.cells is None else OF_MASSES
+    words = "applies to fill with cells only" if fill.cells is None else "applies to fill without cells only"
+    for key in without:
+        if key in fill.model_fields_set:
+            yield Finding("key-of-another-choice", words, key)
 
 
 @rule(Passive)

@@ -8,13 +8,13 @@ conforms to the outline.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 import shapely
 from scipy.spatial import Delaunay
 
-from mbla.arrays import BoolArray, FloatArray, IntArray
+from mbla.arrays import FloatArray, IntArray
+from mbla.model.soil.plane_mesh import PlaneMesh
 
 INSIDE = 0.55
 """least distance of points of the lattice to the outline, over the size of the cells"""
@@ -24,33 +24,6 @@ FLAT = 1e-9
 """area over the square of the size of the cells up to which three points in a row are none"""
 AREA = np.sqrt(3.0) / 4.0
 """of an equilateral triangle with sides of 1"""
-
-
-@dataclass(frozen=True)
-class PlaneMesh:
-    """Triangles in a plane.
-
-    points    : (n, 2)
-    triangles : (m, 3) points of each, counter-clockwise
-    along     : (n, 2) unit direction in which a point on a straight edge of the outline may move and leave it as it is;
-                zero at corners and inside
-    inside    : (n,) points that are on no edge of the outline, and may move both ways
-    """
-
-    points: FloatArray
-    triangles: IntArray
-    along: FloatArray
-    inside: BoolArray
-
-    @property
-    def fixed(self) -> BoolArray:
-        """Points at corners of the outline, which stay, (n,)."""
-        return np.asarray(~self.inside & ~self.along.any(axis=1))
-
-    def areas(self, points: FloatArray) -> FloatArray:
-        """Of the triangles, (m,), with their points at other places, (n, 2); negative where one is turned over."""
-        a, b, c = np.moveaxis(points[self.triangles], 1, 0)
-        return np.asarray(_cross(b - a, c - a) / 2)
 
 
 class NotConformingError(Exception):
@@ -151,7 +124,3 @@ def _sides(triangles: IntArray) -> IntArray:
 def _keys(pairs: IntArray, count: int) -> IntArray:
     """A number for each pair of points, whatever their order, (n,)."""
     return np.asarray(pairs.min(axis=1) * count + pairs.max(axis=1))
-
-
-def _cross(one: FloatArray, other: FloatArray) -> FloatArray:
-    return np.asarray(one[:, 0] * other[:, 1] - one[:, 1] * other[:, 0])

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
-from mbla.model.soil.mesh import PlaneMesh
+from mbla.model.soil.plane_mesh import PlaneMesh
 
 
 @dataclass(frozen=True)

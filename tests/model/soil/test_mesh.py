@@ -7,7 +7,8 @@ import pytest
 import shapely
 
 from mbla.arrays import FloatArray
-from mbla.model.soil.mesh import PlaneMesh, triangulate
+from mbla.model.soil.mesh import triangulate
+from mbla.model.soil.plane_mesh import PlaneMesh
 
 STEP = [(0.0, 0.0), (3.0, 0.0), (3.0, 1.0), (1.4, 1.0), (1.0, 1.7), (1.0, 2.0), (0.0, 2.0)]
 HOLE = [(0.4, 0.3), (0.8, 0.3), (0.8, 0.7), (0.4, 0.7)]
@@ -18,7 +19,7 @@ def open_edges(mesh: PlaneMesh) -> FloatArray:
     sides = np.concatenate([mesh.triangles[:, [k, (k + 1) % 3]] for k in range(3)])
     _, first, counts = np.unique(np.sort(sides, axis=1), axis=0, return_index=True, return_counts=True)
     assert counts.max() <= 2
-    return mesh.points[sides[first[counts == 1]]]
+    return np.asarray(mesh.points[sides[first[counts == 1]]])
 
 
 @pytest.mark.parametrize("size", [5.0, 0.5, 0.17, 0.05])

@@ -1,0 +1,78 @@
+"""Soil as rigid cells: keys that fill and the item `soil` have in common, and their rules."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import Protocol
+
+from pydantic import Field
+
+from mbla.deck.quantities import FrictionAngle, NonNegativeLength, NonNegativeStress, PositiveLength
+from mbla.deck.section import ROUNDING, Section
+from mbla.errors import Finding
+
+SOIL = "soil"
+"""kind of items that are soil"""
+FRICTION_ANGLE = "friction angle φ of the soil"
+COHESION = "cohesion c of the soil"
+TENSILE_STRENGTH = "tensile strength of the soil, at most c / tan φ"
+DILATANCY = "dilatancy angle ψ of the soil, at most φ; default: 0"
+WALL = "law of its faces on blocks"
+SHARE_OF_WALL = 2.0 / 3.0
+"""k of δ = k φ between soil and a wall, of precast concrete or steel sheet piles, EN 1997-1, 9.5.1(6)"""
+
+
+class SoilCells(Section):
+    """Soil as rigid cells: triangular prisms whose joints have the law of the soil."""
+
+    size: PositiveLength = Field(description="length of the sides of the triangles, about")
+
+
+class FillCells(SoilCells):
+    """Soil as rigid cells: triangular prisms, through the width, whose joints have the law of the soil."""
+
+    beyond: NonNegativeLength = Field(
+        0.0,
+        description="how far the soil goes on beyond the ends of the blocks, on level ground at the foot of the last "
+        "one; where it ends it is held by upright ground",
+    )
+
+
+class SoilWall(Section):
+    """Joint law between soil and the blocks that it lies on or behind."""
+
+    friction_angle: FrictionAngle | None = Field(
+        None, description="default: two thirds of that of the soil, EN 1997-1, 9.5.1(6)"
+    )
+    cohesion: NonNegativeStress = Field(0.0, description="adhesion")
+
+
+class SoilKeys(Protocol):
+    """What is asked of soil."""
+
+    @property
+    def friction_angle(self) -> float | None: ...  # noqa: D102 - as of FRICTION_ANGLE
+    @property
+    def cohesion(self) -> float: ...  # noqa: D102
+    @property
+    def tensile_strength(self) -> float: ...  # noqa: D102
+    @property
+    def dilatancy(self) -> float: ...  # noqa: D102
+
+
+def soil_strengths(soil: SoilKeys) -> Iterator[Finding]:
+    """Dilatancy at most the friction angle, and a friction cone that is open at the tensile strength."""
+    if soil.friction_angle is None:
+        return
+    if soil.dilatancy > soil.friction_angle * (1 + ROUNDING):
+        yield Finding("out-of-bounds", f"must be <= {soil.friction_angle:.6g} degrees, the friction angle", "dilatancy")
+    friction = math.tan(math.radians(soil.friction_angle))
+    if soil.cohesion < friction * soil.tensile_strength * (1 - ROUNDING):
+        words = f"must be <= {soil.cohesion / friction:.6g}, c / tan φ, where the friction cone ends"
+        yield Finding("out-of-bounds", words, "tensile_strength")
+
+
+def laws_of_soil(name: str) -> tuple[str, str]:
+    """Names of the joint laws of soil with that name: between its cells, and between these and other blocks."""
+    return name, f"{name}.wall"

@@ -1,0 +1,136 @@
+"""All soil of cells of a deck: items `soil`, then fills with cells, each beside the blocks before it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from mbla.arrays import FloatArray
+from mbla.deck.deck import Deck
+from mbla.deck.sections.fill import Fill
+from mbla.deck.sections.selectors import Selector
+from mbla.deck.sections.soil import SOIL
+from mbla.errors import Finding, KeyPath
+from mbla.model.blocks.generated import ItemRefused
+from mbla.model.blocks.soil import SoilItem
+from mbla.model.items import density_of
+from mbla.model.model import Ground, Joint
+from mbla.model.selectors import BlockSelection, select_blocks
+from mbla.model.soil.cells import build_soil, mesh_of
+from mbla.model.soil.fill_region import fill_region
+from mbla.model.soil.item_region import item_region
+from mbla.model.soil.region import Region
+from mbla.model.soil.soil_mesh import SoilMesh
+from mbla.model.solids.append import append_blocks
+from mbla.model.solids.blocks import Blocks
+from mbla.model.supports.supports import plane_of
+
+
+@dataclass(frozen=True)
+class Soils:
+    """What soil of cells adds to a structure.
+
+    blocks  : those before it, and all cells behind them
+    partial : names of soils that could not be built
+    """
+
+    blocks: Blocks
+    meshes: tuple[SoilMesh, ...] = ()
+    joints: tuple[Joint, ...] = ()
+    grounds: tuple[Ground, ...] = ()
+    partial: frozenset[str] = frozenset()
+
+
+def build_soils(deck: Deck, before: BlockSelection, moved: Mapping[str, FloatArray]) -> Soils:
+    """All soil of cells of a deck beside and on the blocks of its other items; faults go to the selection.
+
+    moved : by name of the soil, other places (n, 2) of the points of its mesh, as they were moved
+
+    Raises ValueError for points that are none of a soil.
+    """
+    given = list(_sections(deck))
+    strange = moved.keys() - {name for name, _, _ in given}
+    if strange:
+        raise ValueError(f"no soil of cells has the name {', '.join(sorted(strange))}")
+    if before.partial:  # what it lies on may be missing
+        return Soils(before.blocks, partial=frozenset(name for name, _, _ in given))
+    soils = Soils(before.blocks)
+    for name, section, path in given:
+        try:
+            soils = _with_soil(soils, deck, before, name, section, path, moved.get(name))
+        except ItemRefused as refused:
+            for finding in refused.findings:
+                before.refuse(finding.below(*path))
+            soils = replace(soils, partial=soils.partial | {name})
+    return soils
+
+
+def _with_soil(
+    soils: Soils,
+    deck: Deck,
+    before: BlockSelection,
+    name: str,
+    section: Fill | SoilItem,
+    path: KeyPath,
+    moved: FloatArray | None,
+) -> Soils:
+    region = _region(soils, deck, before, section, path)
+    if region is None:
+        return replace(soils, partial=soils.partial | {name})
+    assert section.cells is not None
+    mesh = mesh_of(region, section.cells.size)
+    if moved is not None:
+        if moved.shape != mesh.points.shape:
+            raise ValueError(f"soil {name} has {len(mesh.points)} points, not an array of {moved.shape}")
+        if (mesh.areas(moved) <= 0.0).any():
+            raise ValueError(f"points of soil {name} turn cells over")
+        mesh = replace(mesh, points=moved)
+    density = density_of(deck.content.materials[section.material], deck.units)
+    soil = build_soil(section, name, region, mesh, density, len(soils.blocks), deck.contacts.tolerance)
+    return replace(
+        soils,
+        blocks=append_blocks(soils.blocks, soil.cells),
+        meshes=(*soils.meshes, soil.mesh),
+        joints=(*soils.joints, *soil.joints),
+        grounds=(*soils.grounds, *soil.grounds),
+    )
+
+
+def _region(soils: Soils, deck: Deck, before: BlockSelection, section: Fill | SoilItem, path: KeyPath) -> Region | None:
+    """What a section describes; None where a fault says which blocks it lies on."""
+    tolerance = deck.contacts.tolerance
+    if isinstance(section, SoilItem):
+        return item_region(section, soils.blocks, tolerance)
+    own = {name for name, _, _ in _sections(deck)}
+    if own & set(_groups(section.on)):
+        raise ItemRefused(Finding("soil-region", "is soil of cells: name blocks of other items", "on"))
+    chosen = select_blocks(section.on, (*path, "on"), before)
+    if chosen is None:
+        return None
+    return fill_region(section, soils.blocks, chosen, _levels(deck), tolerance)
+
+
+def _groups(selector: Selector) -> Iterator[str]:
+    """Groups that a selector names."""
+    for term in selector if isinstance(selector, list) else [selector]:
+        name = term if isinstance(term, str) else term.group
+        if name is not None:
+            yield name
+
+
+def _sections(deck: Deck) -> Iterator[tuple[str, Fill | SoilItem, KeyPath]]:
+    """Soils of the deck by name, with their key paths."""
+    for number, entry in enumerate(deck.content.blocks):
+        if isinstance(entry.item, SoilItem):
+            yield entry.item.group or SOIL, entry.item, ("blocks", number, SOIL)
+    for name, fill in deck.content.fill.items():
+        if fill.cells is not None:
+            yield name, fill, ("fill", name)
+
+
+def _levels(deck: Deck) -> FloatArray:
+    """Heights of level ground under all blocks, (n,)."""
+    planes = [plane_of(each.ground) for each in deck.content.supports if each.ground and each.blocks is None]
+    return np.array([point[2] for point, normal, _ in planes if normal[2] >= 1.0 - 1e-12])
