@@ -98,8 +98,8 @@ def collect_items(deck: Deck, faults: list[Fault]) -> CollectedItems:
     return CollectedItems(
         polyhedra=join_polyhedra([part.polyhedra for part in parts]),
         labels=labels,
-        items=np.repeat(numbers, counts),
-        fixed=np.repeat([part.fixed for part in parts], counts),
+        items=np.repeat(np.array(numbers, dtype=np.int64), counts),
+        fixed=np.repeat(np.array([part.fixed for part in parts], dtype=bool), counts),
         grounds=tuple(_named(ground, labels) for ground in grounds),
         surfaces=tuple(surfaces),
         notices=tuple(notices),

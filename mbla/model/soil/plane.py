@@ -39,6 +39,9 @@ class Sections:
         return Sections(self.blocks[rows], self.outlines[rows], self.extents[rows], self.sizes[rows])
 
 
+NO_SECTIONS = Sections(np.empty(0, np.int64), np.empty(0, object), np.empty((0, 2)), np.empty(0))
+
+
 def axes_across(direction: FloatArray) -> FloatArray:
     """Axes (3, 3) of the upright plane across a horizontal unit direction: along it, level and towards +x, else +y;
     upwards; and across, as of the plane of x and z the directions x, z, y.
@@ -79,6 +82,8 @@ _PRISMS = "the blocks under soil of cells must be prisms along one horizontal di
 
 def sections_of(blocks: Blocks, chosen: IntArray, axes: FloatArray) -> Sections:
     """Blocks (n,) as they are seen along the direction across the plane of axes (3, 3)."""
+    if not len(chosen):
+        return NO_SECTIONS
     faces = items_of_rows(blocks.face_start, chosen)
     row = np.repeat(np.arange(len(chosen)), np.diff(blocks.face_start)[chosen])
     seen = blocks.face_normals[faces] @ axes[2] > SQUARE

@@ -14,9 +14,9 @@ import shapely
 from scipy.spatial import KDTree
 
 from mbla.arrays import FloatArray, IntArray
-from mbla.model.soil.plane import Sections, sections_of
+from mbla.model.soil.plane import NO_SECTIONS, Sections, sections_of
 from mbla.model.solids.blocks import Blocks
-from mbla.model.solids.ragged import items_of_rows
+from mbla.model.solids.ragged import items_of_rows, row_ranges
 
 
 @dataclass(frozen=True)
@@ -51,9 +51,9 @@ class Region:
 
 def beside(region: Region, blocks: Blocks, but: IntArray, tolerance: float) -> Sections:
     """Blocks within the extent of a region that are near it, but for some, as they are seen across its plane."""
-    across = blocks.vertices @ region.axes[2]
-    start = blocks.vertex_start
-    low, high = np.minimum.reduceat(across, start[:-1]), np.maximum.reduceat(across, start[:-1])
+    if not len(blocks):
+        return NO_SECTIONS
+    low, high = row_ranges(blocks.vertices @ region.axes[2], blocks.vertex_start)
     reach = tolerance * blocks.sizes
     within = (low < region.extent[1] - reach) & (high > region.extent[0] + reach)
     within[but] = False

@@ -120,9 +120,8 @@ def labels_of(
 
 def join_labels(parts: Sequence[BlockLabels]) -> BlockLabels:
     """Labels of the blocks of several parts, in order."""
-    return BlockLabels(
-        tuple(member for part in parts for member in part.members), np.concatenate([part.positions for part in parts])
-    )
+    positions = [labels_of(0).positions, *(part.positions for part in parts)]
+    return BlockLabels(tuple(member for part in parts for member in part.members), np.concatenate(positions))
 
 
 def carried_masses(

@@ -88,6 +88,8 @@ def build_blocks(polyhedra: Polyhedra, labels: Labels, tolerance: float) -> Buil
     The checks follow each other, and a block that fails one is left out of the next: an open block has no volume to
     judge. Everything is done for all blocks at once.
     """
+    if not len(polyhedra):
+        return BuiltBlocks(_no_blocks(polyhedra, labels), (), (), NO_BENT_FACES)
     polyhedra, unused = drop_unused_vertices(polyhedra)
     defects = Defects(len(polyhedra))
     defects.add(coordinate_defects(polyhedra))
@@ -128,6 +130,24 @@ def build_blocks(polyhedra: Polyhedra, labels: Labels, tolerance: float) -> Buil
         *_not_quite_planar(blocks, faces, bent, extents, labels),
     )
     return BuiltBlocks(blocks, notices, tuple(sorted(defects.found, key=lambda defect: defect.block)), bent)
+
+
+def _no_blocks(polyhedra: Polyhedra, labels: Labels) -> Blocks:
+    """What is none yet, for soil of cells to follow."""
+    return Blocks(
+        **{each.name: getattr(polyhedra, each.name) for each in fields(Polyhedra)},
+        facet_of_face=np.empty(0, dtype=np.int64),
+        face_normals=np.empty((0, 3)),
+        convex=np.empty(0, dtype=bool),
+        volumes=np.empty(0),
+        centroids=np.empty((0, 3)),
+        densities=labels.densities,
+        added_masses=np.empty(0),
+        added_mass_points=np.empty((0, 3)),
+        groups=(),
+        group_indices=np.empty(0, dtype=np.int64),
+        labels=labels.within,
+    )
 
 
 def _not_quite_planar(
