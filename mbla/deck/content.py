@@ -176,12 +176,19 @@ def prescribed_interfaces_and_symmetry(deck: DeckContent) -> Iterator[Finding]:
         yield Finding("symmetry-broken", words, "contacts", "joint_thickness")
 
 
+def soils_of(deck: DeckContent) -> Iterator[tuple[KeyPath, Any]]:
+    """Items `soil`, then fills with cells, with their key paths."""
+    yield from (
+        (("blocks", number, SOIL), entry.item) for number, entry in enumerate(deck.blocks) if entry.kind == SOIL
+    )
+    yield from ((("fill", name), fill) for name, fill in deck.fill.items() if fill.cells is not None)
+
+
 @rule(DeckContent)
 def soil_of_cells(deck: DeckContent) -> Iterator[Finding]:
     """Contacts of cells are found, and cells fit the blocks of the whole structure."""
-    fills: list[KeyPath] = [("fill", name, "cells") for name, fill in deck.fill.items() if fill.cells is not None]
-    items: list[KeyPath] = [("blocks", number, SOIL) for number, entry in enumerate(deck.blocks) if entry.kind == SOIL]
-    for path in (*fills, *items):
+    for place, soil in soils_of(deck):
+        path = (*place, "cells") if isinstance(soil, Fill) else place
         if deck.symmetry:
             yield Finding("symmetry-broken", "does not go with symmetry: give the whole structure", *path)
         if deck.contacts.table is not None:

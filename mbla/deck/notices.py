@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from mbla.deck.content import DeckContent
+from mbla.deck.content import DeckContent, soils_of
 from mbla.deck.expressions import Parameters
 from mbla.deck.references import unused_names
 from mbla.deck.sections.analysis import APPLIES
@@ -43,6 +43,9 @@ def unused_keys(tree: Tree, content: DeckContent) -> Iterator[Notice]:
     for name, joint in content.joints.items():
         if joint.dilatancy > 0.0 and analysis.flow_rule != "dilatancy":
             yield _notice(tree, ("joints", name, "dilatancy"), "flow_rule: dilatancy")
+    for path, soil in soils_of(content):
+        if soil.dilatancy > 0.0 and analysis.flow_rule != "dilatancy":
+            yield _notice(tree, (*path, "dilatancy"), "flow_rule: dilatancy")
 
 
 def _notice(tree: Tree, path: KeyPath, where: str) -> Notice:

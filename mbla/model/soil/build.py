@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from mbla.arrays import FloatArray
+from mbla.deck.content import soils_of
 from mbla.deck.deck import Deck
 from mbla.deck.sections.fill import Fill
 from mbla.deck.sections.selectors import Selector
@@ -122,12 +123,8 @@ def _groups(selector: Selector) -> Iterator[str]:
 
 def _sections(deck: Deck) -> Iterator[tuple[str, Fill | SoilItem, KeyPath]]:
     """Soils of the deck by name, with their key paths."""
-    for number, entry in enumerate(deck.content.blocks):
-        if isinstance(entry.item, SoilItem):
-            yield entry.item.group or SOIL, entry.item, ("blocks", number, SOIL)
-    for name, fill in deck.content.fill.items():
-        if fill.cells is not None:
-            yield name, fill, ("fill", name)
+    for path, soil in soils_of(deck.content):
+        yield str(path[-1]) if isinstance(soil, Fill) else soil.group or SOIL, soil, path
 
 
 def _levels(deck: Deck) -> FloatArray:

@@ -61,7 +61,7 @@ def fill_region(fill: Fill, blocks: Blocks, chosen: IntArray, levels: FloatArray
     extent = np.array([under.extents[:, 0].min(), under.extents[:, 1].max()])
     region = Region(axes, extent, polygons_of(shape, reach))
     if not region.polygons:
-        raise ItemRefused(Finding("soil-region", "has nothing to fill: its top lies on the blocks", top.key))
+        raise ItemRefused(Finding("soil-region", "leaves nothing to fill: the top lies on the blocks", top.key))
     between = _between_walls(region, blocks, chosen, tolerance)
     _refuse_changing(between, under, ends, reach, blocks)
     others = beside(between, blocks, chosen, tolerance)

@@ -7,11 +7,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from mbla.deck import read_deck
 from mbla.model import build_model
 from mbla.process.run_options import RunOptions
-from mbla.run import run
 from mbla.results.outcome import answer_of
+from mbla.run import run
 from tests.model.soil.decks import ARCH, BACKFILL, FOOTING, GROUND, WALL, deck, fill, model, refused
 from tests.model.soil.test_fill_region import missing
 
