@@ -89,10 +89,8 @@ def joints_of_interfaces(
     selection = BlockSelection(model.blocks)
     notices = []
     for number, override in enumerate(section.overrides):
-        fits = ~settled
-        if override.between is None:
-            fits &= ~soil
-        else:
+        fits = ~(settled | soil) if override.between is None else ~settled
+        if override.between is not None:
             first, second = (bodies_selected(each, selection, len(model.grounds))[bodies] for each in override.between)
             fits &= (first & second[:, ::-1]).any(axis=1)
         if override.orientation is not None:
