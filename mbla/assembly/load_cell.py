@@ -104,4 +104,5 @@ def _one_more(blocks: Blocks, centroid: FloatArray) -> Blocks:
         groups=(*blocks.groups, "load cell"),
         group_indices=np.append(blocks.group_indices, 0),
         labels=join_labels([blocks.labels, labels_of(1)]),
+        strengths=None,
     )

@@ -65,6 +65,14 @@ class Usual:
 
 STRESSES = ("MPa", "kPa", "Pa")
 MORTAR = Usual("1 kPa", "1 GPa", "and that of mortar joints is some 10 kPa to 1 MPa", "stress", STRESSES, "0.1 MPa")
+CRUSHING = Usual(
+    "10 kPa",
+    "10 GPa",
+    "and that of masonry is 0.5 to 200 MPa; without the key it is unlimited",
+    "stress",
+    STRESSES,
+    "5 MPa",
+)
 STEP, PATH = (
     Usual(0.0, most, "a displacement no structure survives", "length", ("mm", "cm"), "100 mm")
     for most in ("10 m", "100 m")
@@ -78,6 +86,10 @@ USUAL: dict[str, dict[str, Usual]] = {
         "unit_weight": Usual(
             "2 kN/m^3", "200 kN/m^3", "is not that of masonry, 15 to 30 kN/m^3", dimension="unit_weight"
         ),
+        "tensile_strength": Usual(
+            "10 kPa", "100 MPa", "and that of stone and brick is 0.5 to 20 MPa", "stress", STRESSES, "3 MPa"
+        ),
+        "compressive_strength": CRUSHING,
     },
     "joints": {
         "friction": Usual(0.0, 5.0, "is more than masonry has; an angle is given as friction_angle, in degrees"),
@@ -86,14 +98,7 @@ USUAL: dict[str, dict[str, Usual]] = {
         ),
         "cohesion": MORTAR,
         "tensile_strength": MORTAR,
-        "compressive_strength": Usual(
-            "10 kPa",
-            "10 GPa",
-            "and that of masonry is 0.5 to 200 MPa; without the key it is unlimited",
-            "stress",
-            STRESSES,
-            "5 MPa",
-        ),
+        "compressive_strength": CRUSHING,
     },
     "ties": {
         "strength": Usual("100 kPa", "100 GPa", "and that of steel is 200 to 2000 MPa", "stress", STRESSES, "300 MPa"),

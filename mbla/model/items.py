@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -34,7 +35,7 @@ length asks for far more than is meant"""
 class CollectedItems:
     """Everything that the items of a deck give, in their order.
 
-    labels  : names and densities of the blocks
+    labels  : names, densities and strengths of the blocks
     items   : (n_blocks,) which item of the deck each belongs to
     fixed   : (n_blocks,) blocks that items bring along as supports
     grounds : planes that items bring along, under blocks of their own
@@ -127,14 +128,27 @@ def _copies(deck: Deck, block_item: BlockItem, path: KeyPath, n_blocks: int) -> 
 
 
 def _labels(deck: Deck, parts: Sequence[ItemPart]) -> Labels:
-    """Names and densities of the blocks of parts, whose suffix is the name of their group in full."""
-    densities = {name: density_of(material, deck.units) for name, material in deck.content.materials.items()}
+    """Names, densities and strengths of the blocks of parts, whose suffix is the name of their group in full."""
+    materials = deck.content.materials
+    densities = {name: density_of(material, deck.units) for name, material in materials.items()}
+    strengths = {name: strengths_of(material) for name, material in materials.items()}
     counts = [len(part.polyhedra) for part in parts]
+    given = any(np.isfinite(pair).any() for pair in strengths.values())
     return Labels(
         tuple(np.repeat(np.array([part.suffix for part in parts], dtype=object), counts).tolist()),
         np.repeat([densities[part.material or ""] for part in parts], counts),
         join_labels([labels_of(len(part.polyhedra), part.member, part.labels) for part in parts]),
+        np.repeat([strengths[part.material or ""] for part in parts], counts, axis=0) if given else None,
     )
+
+
+def strengths_of(material: Material) -> tuple[float, float]:
+    """Tensile and compressive strength, infinite where none is given."""
+    tensile, compressive = (
+        math.inf if strength is None else strength
+        for strength in (material.tensile_strength, material.compressive_strength)
+    )
+    return tensile, compressive
 
 
 def density_of(material: Material, units: Units) -> float:

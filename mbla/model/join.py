@@ -33,6 +33,10 @@ def join_blocks(blocks: Blocks, joined: IntArray) -> Blocks:
     densities = summed(joined, blocks.volumes * blocks.densities, count) / volumes
     # what stands alone keeps its numbers to the last digit
     centroids[alone], densities[alone] = blocks.centroids[first[alone]], blocks.densities[first[alone]]
+    strengths = None
+    if blocks.strengths is not None:
+        strengths = np.full((count, 2), np.inf)
+        np.minimum.at(strengths, joined, blocks.strengths)
     added, centres = carried_masses(centroids, joined, blocks.added_masses, blocks.added_mass_points)
     labels = blocks.labels
     return Blocks(
@@ -52,6 +56,7 @@ def join_blocks(blocks: Blocks, joined: IntArray) -> Blocks:
         groups=tuple(blocks.groups[block] for block in first),
         group_indices=blocks.group_indices[first],
         labels=BlockLabels(tuple(labels.members[block] for block in first), labels.positions[first]),
+        strengths=strengths,
     )
 
 

@@ -14,6 +14,7 @@ import numpy as np
 
 from mbla.errors import Notice
 from mbla.model.model import LoadCase, Model
+from mbla.results.demand.cracking import cracking_notices
 from mbla.results.findings import found_notices, magnitude_notices
 from mbla.results.results import CaseResult, Results
 from mbla.solution.flow.path_record import Stop
@@ -234,6 +235,7 @@ def notices_of(results: Results) -> tuple[Notice, ...]:
         own = case_notices(case)
         doubtful = any(notice.identifier == "law-residual" for notice in own)
         notices += (*own, *found_notices(case, harmless=harmless))
+        notices += cracking_notices(results.assembly, case) if result_of(case) is not None else ()
         notices += magnitude_notices(results.model, results.contacts, case, doubtful=doubtful)
     return tuple(notices)
 

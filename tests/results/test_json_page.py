@@ -40,7 +40,7 @@ LEDGE = BLOCK.replace("live:", "dead: [{gravity: [2.4, 0, -9.81]}], live:")
 """stands where its friction is above 2.4/9.81"""
 QUESTIONS = """\
 mbla: 1
-materials: {stone: {density: 2000}}
+materials: {stone: {density: 2000, tensile_strength: 50000}}
 joints: {dry: {friction: 0.6}}
 contacts: {joint: dry}
 blocks:

@@ -27,6 +27,16 @@ class Material(Section):
     unit_weight: PositiveUnitWeight | None = Field(
         None, description="weight per volume under standard gravity, 9.81 m/s^2"
     )
+    tensile_strength: PositiveStress | None = Field(
+        None,
+        description="tensile strength of the units; changes no load factor: a warning says where units bend or split "
+        "by more",
+    )
+    compressive_strength: PositiveStress | None = Field(
+        None,
+        description="compressive strength of the units; changes no load factor, which that of joints does: a warning "
+        "says where joints without one press by more",
+    )
 
 
 FRICTIONLESS, GLUED, OPEN = "frictionless", "glued", "open"

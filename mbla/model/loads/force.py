@@ -31,7 +31,8 @@ def force_load(entry: Entry, blocks: IntArray | None, site: LoadSite) -> Applied
             site.warn("force-outside-block", f"the {words} acts {off.words}; its moment is kept")
     else:
         words += " at its centroid"
-    return AppliedLoad(np.array([block]), wrenches_of(np.array([entry.value]), point[None], centroid[None]), words)
+    wrenches = wrenches_of(np.array([entry.value]), point[None], centroid[None])
+    return AppliedLoad(np.array([block]), wrenches, words, at_point=True)
 
 
 register_load(

@@ -42,6 +42,8 @@ class Blocks(Polyhedra):
     groups           : group of each block
     group_indices    : (n_blocks,)      position of the block in its group, from 0
     labels           : members and positions within the group
+    strengths        : (n_blocks, 2) Pa, tensile and compressive strength of the material, inf where none is given;
+                       None where none is given of any
     (units: those of the deck; m, kg stand for them)
     """
 
@@ -56,6 +58,7 @@ class Blocks(Polyhedra):
     groups: tuple[str, ...]
     group_indices: IntArray
     labels: BlockLabels
+    strengths: FloatArray | None = None
 
     def name(self, block: int) -> str:
         """``facade[12]``: group and index, as selectors write it."""

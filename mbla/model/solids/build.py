@@ -46,12 +46,13 @@ PLANAR = 1e-9
 @dataclass(frozen=True)
 class Labels:
     """What blocks are called and made of: ``groups`` (n,), ``densities`` (n,), ``within`` (n) the labels within their
-    groups.
+    groups, ``strengths`` (n, 2) as blocks have them.
     """
 
     groups: tuple[str, ...]
     densities: FloatArray
     within: BlockLabels
+    strengths: FloatArray | None = None
 
     @cached_property
     def group_indices(self) -> IntArray:
@@ -123,6 +124,7 @@ def build_blocks(polyhedra: Polyhedra, labels: Labels, tolerance: float) -> Buil
         groups=labels.groups,
         group_indices=labels.group_indices,
         labels=labels.within,
+        strengths=labels.strengths,
     )
     notices = (
         *_counted("vertices-unused", unused, "vertex", "left out, used by no face,", labels),

@@ -109,7 +109,8 @@ def _labels(model: Model, others: IntArray) -> Labels:
     groups = (*blocks.groups, *(blocks.groups[b] for b in others.tolist()))
     images = BlockLabels(tuple(blocks.labels.members[b] for b in others.tolist()), blocks.labels.positions[others])
     densities = np.concatenate([blocks.densities, blocks.densities[others]])
-    return Labels(groups, densities, join_labels([blocks.labels, images]))
+    strengths = None if blocks.strengths is None else np.concatenate([blocks.strengths, blocks.strengths[others]])
+    return Labels(groups, densities, join_labels([blocks.labels, images]), strengths)
 
 
 def _grounds(grounds: Sequence[Ground], mirror: ModelMirror) -> tuple[Ground, ...]:

@@ -47,6 +47,7 @@ from mbla.results.listing.sections.model_words import (
 from mbla.results.listing.sections.pushover import curve_blocks
 from mbla.results.listing.sections.sensitivity import sensitivity_blocks
 from mbla.results.listing.sections.tie_words import tie_force_blocks, tie_title
+from mbla.results.listing.sections.unit_words import unit_blocks
 from mbla.results.listing.summary import warning_blocks
 from mbla.results.listing.text import counted, full_sentence, number, section_lines, text_of
 from mbla.results.listing.verdict_words import bound_words, known_words, verdict
@@ -108,6 +109,7 @@ def _forces(
             *freedom_blocks(contacts, case, freedom),
         ],
         tie_title(model): tie_force_blocks(model, mechanics) if len(model.ties) else [],
+        "Stress in units": unit_blocks(assembly, case),
     }
 
 

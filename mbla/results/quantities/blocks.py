@@ -9,6 +9,8 @@ from mbla.contacts.contacts import Contacts
 from mbla.deck.sections.selectors import POSITIONS
 from mbla.model.model import LoadCase, Model
 from mbla.model.solids.blocks import BlockLabels, Blocks
+from mbla.results.demand.demand import Demand, demand_of
+from mbla.results.demand.demand import strength_use as strengths_used
 from mbla.results.quantities.answers import OWN, claimed_collapse
 from mbla.results.quantities.group import Field, Group
 from mbla.results.quantities.points import declare_figures
@@ -190,6 +192,46 @@ PARTS = Group[IntArray](
 def parts(parts: IntArray) -> IntArray:
     """Rigid part of each block, 0 at rest, 1 the heaviest; follows from the mechanism."""
     return parts
+
+
+def _claimed_demand(scene: Scene) -> Demand | None:
+    mechanics = scene.solved.solution.mechanics
+    return None if mechanics is None else demand_of(scene.assembly, scene.solved.load_case, mechanics)
+
+
+Group[Demand](
+    lambda scene: scene.demand,
+    claim=_claimed_demand,
+    file="cases/*/units",
+    table="blocks",
+    part="mechanics",
+    files="table blocks",
+).fields(
+    Demand,
+    bending_tension=Field(
+        "greatest tension of the unit by bending, 0 without any; nan: fixed, guided or glued to others",
+        "block",
+        unit="stress",
+        rule="open",
+        attribute="bending",
+    ),
+    splitting_tension=Field(
+        "greatest tension across its struts, likewise", "block", unit="stress", rule="open", attribute="splitting"
+    ),
+    joint_pressure=Field(
+        "greatest even pressure on its joints, likewise; inf: on an edge",
+        "block",
+        unit="stress",
+        rule="open",
+        attribute="pressure",
+    ),
+)
+
+
+@SCENE.quantity("table blocks", dims="block")
+def strength_use(scene: Scene) -> FloatArray | None:
+    """Greatest of these over the strength of the material; none where none is given."""
+    return None if scene.demand is None else strengths_used(scene.assembly, scene.demand)
 
 
 CERTIFICATE = Group[FloatArray](

@@ -27,6 +27,7 @@ from mbla.results.record.case_parts import (
 from mbla.results.record.mechanism_json import MECHANISM
 from mbla.results.record.objects import Object
 from mbla.results.record.scene import Scene
+from mbla.results.record.unit_stress import UNIT_STRESS
 from mbla.results.results import CaseResult
 from mbla.solution.pushover.pushover import Pushover
 from mbla.solution.verification.statics import power
@@ -122,6 +123,7 @@ CASE.holds("assessment", ASSESSMENT, "what a code says")
 
 CASE.holds("time", TIME, "what it took")
 CASE.holds("mechanism", MECHANISM, "how it fails; null where the case has no result")
+CASE.holds("unit_stress", UNIT_STRESS, "what its forces ask of the units; null where the case has no result")
 
 
 @CASE.key("a tie", inside=quantities_of_ties.TIES)

@@ -21,6 +21,7 @@ from mbla.results.collapse.motion import drawn_motion, mean_displacements, verte
 from mbla.results.collapse.rigid_parts import rigid_parts
 from mbla.results.collapse.thrust import Thrust, thrust_lines, thrust_of
 from mbla.results.collapse.torsion_use import torsion_use
+from mbla.results.demand.demand import Demand, demand_of
 from mbla.results.outcome import associative_of, best_iterate, result_of
 from mbla.results.results import CaseResult, Results
 from mbla.solution.solution import Mechanics, Status
@@ -150,6 +151,13 @@ class Scene:
         if self.forces is None or self.case is None:
             return None
         return torsion_use(self.model, self.contacts, self.forces, self.case.solution.contact_model)
+
+    @cached_property
+    def demand(self) -> Demand | None:
+        """What the forces of the result ask of the units."""
+        if self.case is None or self.result is None:
+            return None
+        return demand_of(self.assembly, self.case.load_case, self.result)
 
     @cached_property
     def moments(self) -> FloatArray | None:

@@ -227,8 +227,9 @@ def point_rows(results: Results) -> list[dict[str, Any]]:
 
 
 EXPECTED = {"blocks": block_rows, "interfaces": interface_rows, "points": point_rows}
+UNIT_STRESS = ("bending_tension", "splitting_tension", "joint_pressure", "strength_use")
 ELSEWHERE = {
-    "blocks": ("parts", *POSITIONS),
+    "blocks": ("parts", *POSITIONS, *UNIT_STRESS),
     "interfaces": ("modes", "eccentricity", "torsion_use", "hinge_points", "hinge_directions"),
     "points": ("friction_use",),
 }

@@ -1,0 +1,1 @@
+"""What forces ask of the units themselves, which the programs take as rigid and unbreakable."""
