@@ -24,6 +24,7 @@ FOLDERS = (
     "benchmarks/closed_forms",
     "benchmarks/published",
     "benchmarks/formats",
+    "benchmarks/experiments",
     "structures",
     "bridges",
     "regressions",
@@ -51,6 +52,7 @@ LONG = (
     "benchmarks/closed_forms/two_piers",
     "benchmarks/closed_forms/wall_10x10",
     "benchmarks/closed_forms/wall_20x20",
+    "benchmarks/experiments/walls_sw",
     "benchmarks/published/cocchetti_rizzi_mu_310_falls",
     "benchmarks/published/cocchetti_rizzi_mu_310_stands",
     "benchmarks/published/cocchetti_rizzi_mu_350_falls",
@@ -139,7 +141,8 @@ def is_long(name: str) -> bool:
 
 @cache
 def _often_shown() -> frozenset[str]:
-    names = [name for path in BENCHMARKS.values() if (name := name_of(path)) not in LONG]
+    closed = [path for path in BENCHMARKS.values() if path.parent.name != "experiments"]
+    names = [name for path in closed if (name := name_of(path)) not in LONG]
     return frozenset(names) - frozenset(names[::EACH])
 
 

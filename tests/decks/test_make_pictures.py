@@ -7,6 +7,7 @@ import pytest
 from mbla.deck import read_deck
 from tests.decks.folder import DECKS
 from tests.decks.make_pictures import (
+    EXPERIMENTS,
     PICTURES,
     SAMPLE,
     STUDIES,
@@ -20,7 +21,7 @@ from tests.decks.make_pictures import (
 
 def test_table_names_every_picture_once() -> None:
     of_sweeps = [f"sweep_{picture.sweep}" for picture in SWEEPS]
-    names = [*(picture.name for picture in TABLE), *STUDIES, *of_sweeps]
+    names = [*(picture.name for picture in TABLE), *STUDIES, EXPERIMENTS, *of_sweeps]
     assert sorted(names) == sorted(set(names))
     assert set(names) == {path.stem for path in PICTURES.iterdir()}
 

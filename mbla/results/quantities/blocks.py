@@ -204,7 +204,7 @@ Group[Demand](
     claim=_claimed_demand,
     file="cases/*/units",
     table="blocks",
-    part="mechanics",
+    part="stress in units",
     files="table blocks",
 ).fields(
     Demand,

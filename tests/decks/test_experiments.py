@@ -1,0 +1,33 @@
+"""The page on experiments says what their decks expect, and what was measured."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+
+from mbla.deck import read_deck
+from tests.decks.experiments import MEASURED, mean_of
+from tests.decks.folder import DECKS
+
+FOLDER = DECKS / "benchmarks" / "experiments"
+PAGE = (FOLDER / "README.md").read_text(encoding="utf-8")
+
+
+def test_every_deck_has_its_measurements() -> None:
+    assert {path.stem for path in FOLDER.glob("*.yaml")} == set(MEASURED)
+
+
+@pytest.mark.parametrize("name", MEASURED)
+def test_the_table_has_the_figures_of_the_deck(name: str) -> None:
+    expected = read_deck(FOLDER / f"{name}.yaml").content.expected
+    assert set(expected) == set(MEASURED[name])
+    for case, expectation in expected.items():
+        found = re.search(rf"\| {name} \| {case[1:]} \| ([\d.]+)[^|]* \| ([\d.]+) \| ([-−+][\d.]+) % \|", PAGE)
+        assert found is not None, case
+        measured, computed = mean_of(name, case), expectation.load_factor
+        assert computed is not None
+        assert float(found[1]) == pytest.approx(measured, abs=0.051)
+        assert float(found[2]) == pytest.approx(computed, abs=0.0051)
+        off = 100 * (computed / measured - 1)
+        assert float(found[3].replace("−", "-")) == pytest.approx(off, abs=0.11)
