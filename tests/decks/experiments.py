@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from statistics import fmean
 
-MEASURED = {
+MEASURED: dict[str, dict[str, tuple[float, ...]]] = {
     "walls_ws": {"n40": (16.3,), "n100": (39.4,), "n175": (66.5,), "n250": (90.2,)},
     "walls_sw": {"n30": (21.9, 22.9), "n100": (41.5, 48.2), "n200": (71.6, 68.6), "n250": (102.7,)},
 }
