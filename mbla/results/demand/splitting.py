@@ -26,6 +26,8 @@ from mbla.model.solids.blocks import Blocks
 from mbla.results.demand.bearings import Bearings, widths_along
 from mbla.results.demand.boxes import Boxes
 
+MOST = 60
+"""bearings of a block between which struts are looked for, those of the greatest forces"""
 TURNS = 4
 """struts that are looked for in a block, over its bearings"""
 LITTLE = 1e-6
@@ -61,18 +63,21 @@ def tension_by_splitting(
 
 def struts_of(bearings: Bearings, judged: BoolArray) -> Struts:
     """All struts, of blocks with as many bearings at a time."""
-    counts = np.where(judged, np.diff(bearings.start), 0)
-    found = [
-        _struts_of(bearings, np.flatnonzero(counts == count), int(count)) for count in np.unique(counts[counts > 1])
-    ]
-    none = np.zeros(0, dtype=np.int64)
-    found.append(Struts(none, none.reshape(0, 2), np.zeros(0)))
+    counts, none = np.where(judged, np.diff(bearings.start), 0), np.zeros(0, dtype=np.int64)
+    found = [Struts(none, none.reshape(0, 2), np.zeros(0))]
+    for count in np.unique(counts[(counts > 1) & (counts <= MOST)]):
+        chosen = np.flatnonzero(counts == count)
+        found.append(_struts_of(bearings, chosen, bearings.start[chosen][:, None] + np.arange(count)))
+    for block in np.flatnonzero(counts > MOST):
+        rows = np.arange(*bearings.start[block : block + 2])
+        order = np.argsort(-np.linalg.norm(bearings.forces[rows], axis=1), kind="stable")
+        found.append(_struts_of(bearings, np.array([block]), rows[np.sort(order[:MOST])][None]))
     return Struts(*(np.concatenate([getattr(each, name) for each in found]) for name in ("blocks", "ends", "forces")))
 
 
-def _struts_of(bearings: Bearings, chosen: IntArray, count: int) -> Struts:
-    """Of blocks (n,) with ``count`` bearings each."""
-    rows = bearings.start[chosen][:, None] + np.arange(count)
+def _struts_of(bearings: Bearings, chosen: IntArray, rows: IntArray) -> Struts:
+    """Of blocks (n,) between as many bearings of each, (n, count)."""
+    count = rows.shape[1]
     places, left = bearings.places[rows], bearings.forces[rows].copy()
     lines = places[:, None, :] - places[:, :, None]  # from i to j
     distance = np.linalg.norm(lines, axis=3)

@@ -10,14 +10,19 @@ import pytest
 
 import mbla
 from mbla.arrays import FloatArray
+from mbla.assembly.assembly import Assembly
 from mbla.results.demand.actions import Acting
+from mbla.results.demand.bearings import Bearings
 from mbla.results.demand.cracking import cracking_notices, cracking_of
 from mbla.results.demand.demand import Demand, demand_of, demand_under, strength_use
+from mbla.results.demand.splitting import MOST, struts_of
 from mbla.results.listing.listing import case_section
 from mbla.results.listing.text import section_lines
 from mbla.results.outcome import notices_of
 from mbla.results.results import Results
 from tests.line import line_of
+from tests.results.no_contacts import without_contacts
+from tests.results.synthetic import tower_results
 
 PAD = 0.01
 """width of what beams and blocks lie on"""
@@ -210,3 +215,22 @@ def demand_shown(results: Results) -> Demand:
     (case,) = results.cases
     assert case.solution.mechanics is not None
     return demand_of(results.assembly, case.load_case, case.solution.mechanics)
+
+
+def test_without_contacts_nothing_is_asked() -> None:
+    results = tower_results()
+    none = Assembly(results.model, without_contacts(results.contacts))
+    demand = demand_under(none, Acting(results.cases[0].load_case, 1.0, np.zeros((0, 3))))
+    assert np.nanmax(demand.bending) == np.nanmax(demand.splitting) == np.nanmax(demand.pressure) == 0.0
+
+
+def test_struts_of_a_block_on_many_others_are_those_of_its_greatest_forces() -> None:
+    count = MOST + 10
+    places, forces = np.zeros((count, 3)), np.zeros((count, 3))
+    places[:, 0] = np.arange(count)
+    forces[:, 2] = 1e-3
+    places[[3, 7]], forces[[3, 7]] = [[0.5, 0, 0], [0.5, 0, 1]], [[0, 0, 5.0], [0, 0, -5.0]]
+    bearings = Bearings(np.array([0, count]), np.arange(count), places, forces, forces[:, 2])
+    struts = struts_of(bearings, np.array([True]))
+    assert struts.ends.tolist() == [[3, 7]]
+    assert struts.forces == pytest.approx([5.0])

@@ -19,8 +19,8 @@ DECK = {
     "contacts": {"joint": "dry"},
     "blocks": [
         {"wall": {"group": "wall", "material": "stone", "unit": [0.4, 0.2, 0.15], "length": 1.2, "courses": 4}},
-        {"arch": {"group": "arch", "material": "stone", "shape": "semicircular", "span": 2, "thickness": 0.2, "width": 0.5,
-                  "voussoirs": 11, "transform": {"translate": [5, 0, 0]}}},
+        {"arch": {"group": "arch", "material": "stone", "shape": "semicircular", "span": 2, "thickness": 0.2,
+                  "width": 0.5, "voussoirs": 11, "transform": {"translate": [5, 0, 0]}}},
     ],
     "supports": [{"ground": {"z": 0}}],
     "load_cases": {"push": {"live": [{"acceleration": [1, 0.2, 0]}]}},
