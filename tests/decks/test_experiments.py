@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import json
 import re
 
 import pytest
 
+import mbla
 from mbla.deck import read_deck
-from tests.decks.experiments import MEASURED, mean_of
+from tests.decks.experiments import MEASURED, cut_walls, mean_of
 from tests.decks.folder import DECKS
 
 FOLDER = DECKS / "benchmarks" / "experiments"
@@ -31,3 +33,14 @@ def test_the_table_has_the_figures_of_the_deck(name: str) -> None:
         assert float(found[2]) == pytest.approx(computed, abs=0.0051)
         off = 100 * (computed / measured - 1)
         assert float(found[3].replace("−", "-")) == pytest.approx(off, abs=0.11)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize(
+    ("tensile_strength", "vertical_load", "computed"),
+    [(3353, 200, 99.2), (3353, 250, 123.2), (1000, 200, 81.5), (1000, 250, 93.5), (0, 200, 23.0)],
+)
+def test_walls_with_units_that_are_cut(tensile_strength: float, vertical_load: float, computed: float) -> None:
+    results = mbla.run("\n" + json.dumps(cut_walls(tensile_strength, vertical_load)))
+    assert results.case("push").load_factor == pytest.approx(computed, rel=5e-3)
+    assert f"{computed:.4g}" in PAGE
