@@ -15,7 +15,19 @@ import pytest
 import mbla
 
 PACKAGE = Path(mbla.__file__).parent
-STAGES = ("deck", "questions", "model", "contacts", "assembly", "program", "solution", "results", "codes", "sweeps")
+STAGES = (
+    "deck",
+    "questions",
+    "model",
+    "contacts",
+    "assembly",
+    "program",
+    "solution",
+    "soil_mesh",
+    "results",
+    "codes",
+    "sweeps",
+)
 WHOLE_LINE = ("api", "check", "run", "verify")
 """modules beside the stages that call all of them: only what runs decks again and again stands to their right"""
 SHARED = ("arrays", "errors", "process")

@@ -1,0 +1,30 @@
+"""Moved corners against limit loads of soil that are known."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from mbla.soil_mesh.moving import move_corners
+from tests.soil_mesh.scenes import SoilCase, strip, vertical_cut, wall
+
+
+def error(case: SoilCase) -> float:
+    return move_corners(case.scene, case.points, case.motions).load_factor / case.exact - 1.0
+
+
+def test_strip_on_clay_is_that_of_prandtl() -> None:
+    case = strip(0.0, 0.25, 1.8, 1.0, crossed=False)
+    assert 0.0 < error(case) < 0.03
+
+
+def test_vertical_cut_stands_as_high_as_bounds_say() -> None:
+    case = vertical_cut(0.0, 0.25)
+    assert 0.0 < error(case) < 0.03
+
+
+@pytest.mark.parametrize("passive", [False, True])
+def test_smooth_wall_has_the_pressure_of_rankine(passive: bool) -> None:
+    sign = 1.0 if passive else -1.0
+    exact = sign * np.tan(np.radians(45.0 + sign * 15.0)) ** 2 / 2.0
+    assert 0.0 < sign * error(wall(30.0, 0.0, 0.25, passive, exact=exact)) < 0.03
