@@ -1,0 +1,205 @@
+"""From an assembly with cells of soil and a load case to a planar scene, and the displacements of its points.
+
+Interfaces are seen along the direction across the plane: an edge from one end to the other of their contact points,
+with the strengths of their joint law times area over length. Weight, and whatever else accelerates the mass of cells,
+is a density, so that it moves with the corners; other loads on cells act on them as they are. Crushing is that of two
+points an interface; ties and load cells are left out, as the load factor of the moved mesh is that of the structure
+that is built on it again.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.sparse as sp
+from scipy.linalg import null_space, orth
+from scipy.spatial import KDTree
+
+from mbla.arrays import FloatArray, IntArray, summed
+from mbla.assembly.assembly import Assembly
+from mbla.assembly.rigid_bodies import RigidBodies
+from mbla.model.applied_load import AppliedLoad
+from mbla.model.model import LoadCase
+from mbla.soil_mesh.outline import corner_motions, outline_of
+from mbla.soil_mesh.planar_scene import NOTHING, PlanarScene, areas_of
+
+ACROSS = 1e-4
+"""cosine of the angle between the normal of an interface and the direction across, up to which it is seen edge-on"""
+
+SAME = 1e-5
+"""distance over the size of cells up to which a contact point is a corner of theirs"""
+
+
+@dataclass(frozen=True)
+class Cells:
+    """Cells of soil: prisms on the triangles of a plane.
+
+    points    : (n_points, 2) coordinates along the first two axes
+    triangles : (n_cells, 3) points, counter-clockwise from the first axis to the second
+    blocks    : (n_cells,) the block of each
+    axes      : (3, 3) unit vectors, two of the plane and one across
+    """
+
+    points: FloatArray
+    triangles: IntArray
+    blocks: IntArray
+    axes: FloatArray
+
+
+@dataclass(frozen=True)
+class SoilScene:
+    """A planar scene, its points, the first of which are those of the cells, and their displacements.
+
+    motions : (2 n_points, n_unknowns)
+    """
+
+    scene: PlanarScene
+    points: FloatArray
+    motions: sp.csr_array
+
+
+@dataclass(frozen=True)
+class _Edges:
+    """Interfaces as edges (n, 2) of points (n_points, 2), bodies of the assembly (n, 2) on their sides, lengths (n,)."""
+
+    points: FloatArray
+    edges: IntArray
+    bodies: IntArray
+    lengths: FloatArray
+
+
+def scene_of_assembly(assembly: Assembly, load_case: LoadCase, cells: Cells) -> SoilScene | None:
+    """The planar scene of a load case; None where an interface is not seen edge-on, so that there is none."""
+    bodies = assembly.of(load_case)
+    contacts = bodies.contacts
+    if np.abs(contacts.normals[: contacts.n_surfaces] @ cells.axes[2]).max(initial=0.0) > ACROSS:
+        return None
+    own = bodies.label[cells.blocks]
+    others = np.setdiff1d(bodies.model.free, own)
+    order = np.concatenate([own, others])
+    edges = _edges(bodies, cells, own)
+    row = np.full(len(bodies.model.blocks) + len(bodies.model.grounds), NOTHING)
+    row[order] = np.arange(len(order))
+    laws = [bodies.model.joints[name] for name in contacts.joint_names]
+    law = contacts.joints[: len(edges.edges)]
+    width = contacts.areas[: len(edges.edges)] / edges.lengths
+
+    def per_length(values: list[float]) -> FloatArray:
+        return np.asarray(np.array(values, dtype=np.float64)[law] * width)
+
+    loads, densities = _loads(bodies, load_case, cells, order)
+    scene = PlanarScene(
+        triangles=cells.triangles,
+        edges=edges.edges,
+        sides=row[edges.bodies],
+        friction=np.array([each.friction for each in laws])[law],
+        cohesion=per_length([each.cohesion for each in laws]),
+        tensile_strength=per_length([each.tensile_strength for each in laws]),
+        compressive_strength=per_length([each.compressive_strength for each in laws]),
+        centres=bodies.model.blocks.centroids[order] @ cells.axes[:2].T,
+        ways=_ways(bodies, cells.axes, order),
+        dead=loads[0],
+        live=loads[1],
+        dead_density=densities[0],
+        live_density=densities[1],
+    )
+    return SoilScene(scene, edges.points, _motions(edges, cells, own, law))
+
+
+def _edges(bodies: RigidBodies, cells: Cells, own: IntArray) -> _Edges:
+    """Interfaces from end to end, the body that the normal points to on the left."""
+    contacts, plane = bodies.contacts, cells.axes[:2].T
+    n = contacts.n_surfaces
+    normals = contacts.normals[:n] @ plane
+    along = np.column_stack([normals[:, 1], -normals[:, 0]])
+    along = along / np.linalg.norm(along, axis=1)[:, None]
+    places = contacts.points @ plane
+    interface = contacts.interface_of_point
+    surfaces = np.flatnonzero(interface < n)
+    at = np.full(len(places), np.inf)
+    at[surfaces] = (places[surfaces] * along[interface[surfaces]]).sum(axis=1)
+    order = np.lexsort((at, interface))
+    ends = np.stack([order[contacts.point_start[:n]], order[contacts.point_start[1 : n + 1] - 1]], axis=1)
+    lengths = at[ends[:, 1]] - at[ends[:, 0]]
+    bodies_of = contacts.bodies[:n, ::-1]
+    named = np.arange(2 * n).reshape(n, 2) + len(cells.points)
+    corner = _corners_at(places[ends], cells)
+    beside = np.asarray(np.isin(bodies_of, own).any(axis=1))[:, None] & (corner >= 0)
+    points = np.vstack([cells.points, places[ends].reshape(-1, 2)])
+    return _Edges(points, np.where(beside, corner, named), bodies_of, lengths)
+
+
+def _corners_at(places: FloatArray, cells: Cells) -> IntArray:
+    """Corner of the cells at each place, (..., 2); -1 where there is none."""
+    away, nearest = KDTree(cells.points).query(places)
+    size = float(np.sqrt(areas_of(cells.triangles, cells.points).mean()))
+    return np.where(away <= SAME * size, nearest, -1)
+
+
+def _motions(edges: _Edges, cells: Cells, own: IntArray, law: IntArray) -> sp.csr_array:
+    """Displacements of the points: edges of the outline are told apart by bodies and joint laws beyond them."""
+    outline, n = outline_of(cells.triangles), len(cells.points)
+    row = {tuple(pair): number for number, pair in enumerate(np.sort(outline, axis=1).tolist())}
+    beyond: list[set[tuple[int, int]]] = [set() for _ in outline]
+    held = np.ones(len(edges.points), dtype=bool)
+    held[:n] = False
+    is_cell = np.asarray(np.isin(edges.bodies, own))
+    for number in np.flatnonzero(is_cell.sum(axis=1) == 1).tolist():
+        edge = edges.edges[number]
+        there = row.get((int(edge.min()), int(edge.max())))
+        if there is None:
+            held[edge] = True
+        else:
+            beyond[there].add((int(edges.bodies[number][~is_cell[number]][0]), int(law[number])))
+    kinds = {kind: number for number, kind in enumerate(dict.fromkeys(map(frozenset, beyond)))}
+    return corner_motions(edges.points, outline, np.array([kinds[frozenset(each)] for each in beyond]), held)
+
+
+def _loads(
+    bodies: RigidBodies, load_case: LoadCase, cells: Cells, order: IntArray
+) -> tuple[tuple[FloatArray, ...], tuple[FloatArray, ...]]:
+    """Dead and live loads in the plane, (n_bodies, 3), and of them the densities on cells, (n_cells, 2)."""
+    on_bodies, areas, n = bodies.load_case(load_case), areas_of(cells.triangles, cells.points), len(cells.blocks)
+    across = np.cross(cells.axes[0], cells.axes[1])
+    loads, densities = [], []
+    for total, single in ((on_bodies.dead_load, load_case.dead), (on_bodies.live_load, load_case.live)):
+        forces = total[order]
+        planar = np.column_stack([forces[:, :3] @ cells.axes[:2].T, forces[:, 3:] @ across])
+        density = _mass_forces(single, len(bodies.arms))[cells.blocks] @ cells.axes[:2].T / areas[:, None]
+        planar[:n, :2] -= areas[:, None] * density
+        loads.append(planar)
+        densities.append(density)
+    return tuple(loads), tuple(densities)
+
+
+def _mass_forces(loads: tuple[AppliedLoad, ...], n_blocks: int) -> FloatArray:
+    """Forces of accelerations on blocks, (n_blocks, 3)."""
+    total = np.zeros((n_blocks, 3))
+    for load in loads:
+        if load.on_masses:
+            total += summed(load.blocks, load.wrenches[:, :3], n_blocks)
+    return total
+
+
+def _ways(bodies: RigidBodies, axes: FloatArray, order: IntArray) -> sp.csr_array:
+    """Motions in the plane that guides leave to the bodies, (3 n, n_ways)."""
+    guides = bodies.model.guides
+    row = np.full(len(bodies.model.blocks), -1)
+    row[order] = np.arange(len(order))
+    free = np.setdiff1d(np.arange(len(order)), row[guides.blocks])
+    columns = (3 * free[:, None] + np.arange(3)).ravel()
+    parts = [sp.csc_array(sp.eye_array(3 * len(order), format="csc")[:, columns])]
+    basis = np.zeros((6, 3))
+    basis[:3, :2], basis[3:, 2] = axes[:2].T, np.cross(axes[0], axes[1])
+    for guided in range(guides.n_bodies):
+        members = np.flatnonzero(guides.bodies == guided)
+        allowed = guides.motions[members].reshape(-1, guides.motions.shape[2])
+        planar = np.kron(np.eye(len(members)), basis)
+        common = null_space(np.hstack([allowed, -planar]))[allowed.shape[1] :]
+        motions = orth(common) if common.size else common
+        places = (3 * row[guides.blocks[members]][:, None] + np.arange(3)).ravel()
+        whole = np.zeros((3 * len(order), motions.shape[1]))
+        whole[places] = motions
+        parts.append(sp.csc_array(whole))
+    return sp.csr_array(sp.hstack(parts))
