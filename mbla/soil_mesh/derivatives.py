@@ -15,7 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.sparse as sp
 
-from mbla.arrays import FloatArray
+from mbla.arrays import FloatArray, IntArray
 from mbla.soil_mesh.planar_program import Mechanism
 from mbla.soil_mesh.planar_scene import EdgeLines, PlanarScene, areas_of, edge_lines, turned
 
@@ -96,12 +96,25 @@ def _by_points(scene: PlanarScene, values: FloatArray, n: int) -> sp.csr_array:
     return sp.csr_array((values.ravel(), places), shape=(2 * len(scene.edges), n))
 
 
+def area_derivatives(triangles: IntArray, points: FloatArray) -> sp.csr_array:
+    """Of the areas of triangles by the coordinates of the points, (n_triangles, 2 n_points)."""
+    columns = (2 * triangles[:, :, None] + np.arange(2)).ravel()
+    rows = np.repeat(np.arange(len(triangles)), 6)
+    values = _by_corner(points[triangles]).ravel()
+    return sp.csr_array((values, (rows, columns)), shape=(len(triangles), points.size))
+
+
+def _by_corner(corners: FloatArray) -> FloatArray:
+    """Derivatives of the areas of triangles by their corners, (n, 3, 2)."""
+    return -turned(np.roll(corners, -1, axis=1) - np.roll(corners, -2, axis=1)) / 2.0
+
+
 def _power_derivatives(scene: PlanarScene, points: FloatArray, motions: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Of the powers of dead and live densities, (2 n_points,)."""
     n, corners = len(scene.triangles), points[scene.triangles]
     areas, middle = areas_of(scene.triangles, points), corners.mean(axis=1)
     velocity = motions[:n, :2] + motions[:n, 2:] * turned(middle - scene.centres[:n])
-    by_area = -turned(np.roll(corners, -1, axis=1) - np.roll(corners, -2, axis=1)) / 2.0
+    by_area = _by_corner(corners)
     found = []
     for density in (scene.dead_density, scene.live_density):
         gradient = np.zeros_like(points)

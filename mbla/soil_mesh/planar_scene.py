@@ -17,7 +17,7 @@ P_D and P_L the powers of dead and live loads. It is a linear program, and all o
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 import scipy.sparse as sp
@@ -66,10 +66,6 @@ class PlanarScene:
         apex = np.divide(self.cohesion, self.friction, out=np.full(len(self.edges), np.inf), where=self.friction > 0.0)
         return np.asarray(np.minimum(self.tensile_strength, apex))
 
-    def crushing_at(self, strength: float) -> PlanarScene:
-        """The same with no compressive strength above one: bodies may overlap at that cost."""
-        return replace(self, compressive_strength=np.minimum(self.compressive_strength, strength))
-
 
 @dataclass(frozen=True)
 class EdgeLines:
@@ -104,13 +100,3 @@ def areas_of(triangles: IntArray, points: FloatArray) -> FloatArray:
     """Areas of triangles, (n,), positive counter-clockwise."""
     corners = points[triangles]
     return cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]) / 2.0
-
-
-def heights_at(triangles: IntArray, points: FloatArray) -> FloatArray:
-    """Least height of the triangles at each point, (n_points,); inf where there is none, negative for a turned one."""
-    corners = points[triangles]
-    longest = np.linalg.norm(np.roll(corners, -1, axis=1) - corners, axis=2).max(axis=1)
-    least = np.full(len(points), np.inf)
-    for corner in triangles.T:
-        np.minimum.at(least, corner, 2.0 * areas_of(triangles, points) / longest)
-    return least

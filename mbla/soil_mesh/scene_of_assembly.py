@@ -61,7 +61,7 @@ class SoilScene:
 
 @dataclass(frozen=True)
 class _Edges:
-    """Interfaces as edges (n, 2) of points (n_points, 2), bodies of the assembly (n, 2) on their sides, lengths (n,)."""
+    """Interfaces as edges (n, 2) of points (n_points, 2): assembly's bodies on their sides (n, 2), lengths (n,)."""
 
     points: FloatArray
     edges: IntArray

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from mbla.soil_mesh.moving import move_corners
+from mbla.soil_mesh.planar_program import find_mechanism
 from tests.soil_mesh.scenes import SoilCase, strip, vertical_cut, wall
 
 
@@ -21,6 +22,12 @@ def test_strip_on_clay_is_that_of_prandtl() -> None:
 def test_vertical_cut_stands_as_high_as_bounds_say() -> None:
     case = vertical_cut(0.0, 0.25)
     assert 0.0 < error(case) < 0.03
+
+
+def test_a_mesh_that_locks_is_freed() -> None:
+    case = strip(30.0, 0.5, 4.8, 1.7, crossed=False)
+    assert find_mechanism(case.scene, case.points) is None
+    assert 0.0 < error(case) < 0.15
 
 
 @pytest.mark.parametrize("passive", [False, True])
