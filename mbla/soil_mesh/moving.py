@@ -37,12 +37,12 @@ class MovingSettings:
     """
 
     steps: int = 60
-    share: float = 0.2
+    share: float = 0.3
     grows: float = 1.3
     shrinks: float = 0.4
-    most: float = 0.3
+    most: float = 0.6
     least: float = 2e-3
-    enough: float = 1e-3
+    enough: float = 3e-4
     thins: float = 0.5
     thinnest: float = 0.01
     eases: tuple[float, ...] = (0.9, 0.8, 0.6, 0.4, 0.2, 0.0)

@@ -26,7 +26,19 @@ from types import CodeType, FrameType
 from typing import Any
 
 FOLLOWED = ("Deck", "Model", "Contacts", "Program", "Solution")
-STAGES = ("deck", "model", "contacts", "assembly", "questions", "program", "solution", "results", "codes", "sweeps")
+STAGES = (
+    "deck",
+    "model",
+    "contacts",
+    "assembly",
+    "questions",
+    "program",
+    "solution",
+    "soil_mesh",
+    "results",
+    "codes",
+    "sweeps",
+)
 TRACED = "--traced"
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 import scipy.sparse as sp
@@ -36,12 +37,13 @@ class Side:
 
 @dataclass(frozen=True)
 class SoilCase:
-    """A scene, its points, what they may do, and the exact load factor."""
+    """A scene, its points, what they may do, the exact load factor, and the same of other points and triangles."""
 
     scene: PlanarScene
     points: FloatArray
     motions: sp.csr_array
     exact: float
+    remade: Callable[[FloatArray, IntArray], SoilCase]
 
 
 Beyond = Callable[[FloatArray], Side]
@@ -138,7 +140,8 @@ def soil_scene(
         dead_density=np.tile(dead, (n_cells, 1)),
         live_density=np.tile(live, (n_cells, 1)),
     )
-    return SoilCase(scene, points, slides(points, outline), exact)
+    remade = partial(soil_scene, law=law, beyond=beyond, dead=dead, live=live, bodies=bodies, held=held, exact=exact)
+    return SoilCase(scene, points, slides(points, outline), exact, remade)
 
 
 def slides(points: FloatArray, outline: list[tuple[int, int, int]]) -> sp.csr_array:
@@ -184,8 +187,12 @@ def strip(angle: float, size: float, width: float, depth: float, crossed: bool =
     return soil_scene(points, triangles, law, beyond, bodies=[(0.0, -1.0, 0.0)], exact=float(exact))
 
 
-def vertical_cut(angle: float, size: float, crossed: bool = True, width: float = 1.5) -> SoilCase:
-    """A vertical cut of height 1 in soil with cohesion 1: the load factor is the stability number γ H / c."""
+def slope(
+    angle: float, size: float, crossed: bool = True, face: float = 90.0, width: float = 1.5, exact: float = np.nan
+) -> SoilCase:
+    """A slope of height 1 in soil with cohesion 1, a vertical cut unless its face is inclined less: the load factor is
+    the stability number γ H / c.
+    """
     friction = float(np.tan(np.radians(angle)))
     law = Law(friction, 1.0, 1.0 / friction if friction else 100.0)
     n = _rows(1.0, size, crossed)
@@ -195,20 +202,22 @@ def vertical_cut(angle: float, size: float, crossed: bool = True, width: float =
     points, triangles = grid(xs, np.append(np.linspace(-0.5, 0.0, below + 1)[:-1], step * np.arange(n + 1)), crossed)
     if not crossed:  # the face of the cut is one of edges
         points = points[(points[:, 0] < -0.6 * step) | (points[:, 1] < NEAR) | (np.abs(points[:, 0]) < NEAR)]
-        face = np.column_stack([np.zeros(n + 1), step * np.arange(n + 1)])
-        points = np.unique(np.round(np.vstack([points, face]), 12), axis=0)
+        upright = np.column_stack([np.zeros(n + 1), step * np.arange(n + 1)])
+        points = np.unique(np.round(np.vstack([points, upright]), 12), axis=0)
         triangles = oriented(points, Delaunay(points).simplices.astype(np.int64))
     middle = points[triangles].mean(axis=1)
     triangles = triangles[~((middle[:, 0] > 0.0) & (middle[:, 1] > 0.0))]
     used, renamed = np.unique(triangles, return_inverse=True)
     points, triangles = points[used], renamed.reshape(-1, 3).astype(np.int64)
+    back, foot = xs[0], 1.0 / np.tan(np.radians(face)) if face < 90.0 else 0.0
+    points[:, 0] += foot * np.clip(1.0 - points[:, 1], 0.0, 1.0) * np.clip(1.0 - points[:, 0] / back, 0.0, 1.0)
+    right = float(points[:, 0].max())
 
     def beyond(middle: FloatArray) -> Side:
-        held = middle[1] < -0.5 + NEAR or middle[0] < xs[0] + NEAR or middle[0] > xs[-1] - NEAR
+        held = middle[1] < -0.5 + NEAR or middle[0] < back + NEAR or middle[0] > right - NEAR
         return Side(NOTHING if held else FREE, law)
 
-    exact = 3.776 * np.tan(np.radians(45 + angle / 2))
-    return soil_scene(points, triangles, law, beyond, live=(0.0, -1.0), exact=float(exact))
+    return soil_scene(points, triangles, law, beyond, live=(0.0, -1.0), exact=exact)
 
 
 def wall(
@@ -220,7 +229,7 @@ def wall(
     """
     law = Law(float(np.tan(np.radians(angle))))
     rough = Law(float(np.tan(np.radians(wall_angle))))
-    n, length = _rows(1.0, size, crossed), 4.0 if passive and wall_angle else 2.5 if passive else 1.0
+    n, length = _rows(1.0, size, crossed), (7.0 if angle > 30.0 else 4.0) if passive else 1.0
     xs = np.linspace(0.0, length, round(length * n) + 1)
     points, triangles = grid(xs, np.linspace(0.0, 1.0, n + 1), crossed)
 
