@@ -187,7 +187,7 @@ def _ways(bodies: RigidBodies, axes: FloatArray, order: IntArray) -> sp.csr_arra
     guides = bodies.model.guides
     row = np.full(len(bodies.model.blocks), -1)
     row[order] = np.arange(len(order))
-    free = np.setdiff1d(np.arange(len(order)), row[guides.blocks])
+    free = np.setdiff1d(np.flatnonzero(~bodies.model.fixed[order]), row[guides.blocks])
     columns = (3 * free[:, None] + np.arange(3)).ravel()
     parts = [sp.csc_array(sp.eye_array(3 * len(order), format="csc")[:, columns])]
     basis = np.zeros((6, 3))

@@ -17,6 +17,7 @@ from scipy.optimize import minimize
 
 from mbla.arrays import FloatArray
 from mbla.soil_mesh.moving import move_corners
+from mbla.soil_mesh.planar_program import find_mechanism
 from tests.soil_mesh.scenes import SoilCase, slope, strip, wall
 
 SIZES = (0.5, 0.25, 1.0 / 6.0)
@@ -135,8 +136,9 @@ def main(part: str, sizes: tuple[float, ...]) -> None:
                 rate = 2 * np.log(abs(before[1] / error)) / np.log(cells / before[0]) if before else np.nan
                 before = cells, error
                 kind = "crossed" if crossed else "equilateral"
-                first = moved.load_factors[0] / exact - 1.0
-                row = (name, f"{exact:.4f}", kind, str(cells), f"{100 * first:+.1f}", f"{100 * error:+.2f}")
+                first = find_mechanism(case.scene, case.points)
+                at_first = "locks" if first is None else f"{100 * (first.load_factor / exact - 1.0):+.1f}"
+                row = (name, f"{exact:.4f}", kind, str(cells), at_first, f"{100 * error:+.2f}")
                 print("|", " | ".join((*row, f"{rate:.1f}", str(moved.steps), f"{seconds:.1f}")), "|", flush=True)  # noqa: T201
 
 

@@ -98,6 +98,39 @@ def soil_scene(
     held       : of the three motions of all these bodies, those that they are kept from
     """
     n_cells, n = len(triangles), len(triangles) + len(bodies)
+    edges, sides, laws, outline = edges_of(points, triangles, law, beyond)
+    friction, cohesion, tension = laws.T
+    keeps = np.ones(3 * n, dtype=bool)
+    for way in held:
+        keeps[3 * n_cells + way :: 3] = False
+    loads = np.zeros((n, 3))
+    loads[n_cells:] = np.reshape(bodies, (-1, 3))
+    centres = np.vstack([points[triangles].mean(axis=1), np.zeros((len(bodies), 2))])
+    unit = sp.csr_array(sp.csc_array(sp.eye_array(3 * n))[:, np.flatnonzero(keeps)])
+    scene = PlanarScene(
+        triangles=triangles,
+        edges=edges,
+        sides=sides,
+        friction=friction,
+        cohesion=cohesion,
+        tensile_strength=tension,
+        compressive_strength=np.full(len(edges), np.inf),
+        centres=centres,
+        ways=unit,
+        dead=np.zeros((n, 3)),
+        live=loads,
+        dead_density=np.tile(dead, (n_cells, 1)),
+        live_density=np.tile(live, (n_cells, 1)),
+    )
+    remade = partial(soil_scene, law=law, beyond=beyond, dead=dead, live=live, bodies=bodies, held=held, exact=exact)
+    return SoilCase(scene, points, slides(points, outline), exact, remade)
+
+
+def edges_of(
+    points: FloatArray, triangles: IntArray, law: Law, beyond: Beyond
+) -> tuple[IntArray, IntArray, FloatArray, list[tuple[int, int, int]]]:
+    """Edges (n, 2), their sides (n, 2) and laws (n, 3); edges of the outline with the body beyond each."""
+    n_cells = len(triangles)
     pairs = np.concatenate([triangles[:, [k, (k + 1) % 3]] for k in range(3)])
     owner = np.tile(np.arange(n_cells), 3)
     row = {pair: number for number, pair in enumerate(map(tuple, pairs.tolist()))}
@@ -117,31 +150,7 @@ def soil_scene(
         edges.append((a, b))
         sides.append((int(owner[number]), body))
         laws.append((own.friction, own.cohesion, own.tension))
-    friction, cohesion, tension = np.array(laws).T
-    keeps = np.ones(3 * n, dtype=bool)
-    for way in held:
-        keeps[3 * n_cells + way :: 3] = False
-    loads = np.zeros((n, 3))
-    loads[n_cells:] = np.reshape(bodies, (-1, 3))
-    centres = np.vstack([points[triangles].mean(axis=1), np.zeros((len(bodies), 2))])
-    unit = sp.csr_array(sp.csc_array(sp.eye_array(3 * n))[:, np.flatnonzero(keeps)])
-    scene = PlanarScene(
-        triangles=triangles,
-        edges=np.array(edges),
-        sides=np.array(sides),
-        friction=friction,
-        cohesion=cohesion,
-        tensile_strength=tension,
-        compressive_strength=np.full(len(edges), np.inf),
-        centres=centres,
-        ways=unit,
-        dead=np.zeros((n, 3)),
-        live=loads,
-        dead_density=np.tile(dead, (n_cells, 1)),
-        live_density=np.tile(live, (n_cells, 1)),
-    )
-    remade = partial(soil_scene, law=law, beyond=beyond, dead=dead, live=live, bodies=bodies, held=held, exact=exact)
-    return SoilCase(scene, points, slides(points, outline), exact, remade)
+    return np.array(edges), np.array(sides), np.array(laws), outline
 
 
 def slides(points: FloatArray, outline: list[tuple[int, int, int]]) -> sp.csr_array:
