@@ -18,6 +18,7 @@ import numpy as np
 from PIL import Image
 
 from mbla.cli import main
+from mbla.results.hdf5.result_file import read_results_hdf5
 from mbla.results.pictures.options import PictureOptions
 from mbla.results.pictures.page import (
     CASES,
