@@ -21,6 +21,10 @@ from mbla.soil_mesh.planar_program import Mechanism, find_mechanism, with_unit_l
 from mbla.soil_mesh.planar_scene import PlanarScene, areas_of
 
 
+FLOOR = 0.1
+"""of the least area: what cells at it may lose by the curvature of their area, which the linear program does not see"""
+
+
 @dataclass(frozen=True)
 class MovingSettings:
     """How corners are moved.
@@ -161,7 +165,7 @@ def _step(
     if step is None:
         return None
     moved = walk.points + step
-    if (areas_of(scene.triangles, moved) < np.minimum(walk.thinnest, areas)).any():
+    if (areas_of(scene.triangles, moved) < FLOOR * walk.thinnest).any():
         return None
     better = find_mechanism(scene, moved)
     if better is None or not better.load_factor < mechanism.load_factor:

@@ -105,7 +105,7 @@ def cases() -> dict[str, tuple[float, Callable[..., SoilCase]]]:
     for angle, (width, depth) in STRIPS.items():
         exact = strip(angle, 0.5, width, depth).exact
         found[f"strip, N_c, φ {angle}"] = exact, partial(strip, angle, width=width, depth=depth)
-    for angle, face in ((0, 90), (20, 90), (20, 60), (20, 45)):
+    for angle, face in ((0, 90), (20, 90), (20, 60)):
         exact = slope_by_log_spiral(angle, face) if angle else VERTICAL_CUT
         found[f"slope {face}, φ {angle}"] = exact, partial(slope, angle, face=face, width=1.5 if face > 60 else 2.5)
     for angle, delta in ((30, 0), (30, 20)):
