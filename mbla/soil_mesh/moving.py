@@ -20,7 +20,6 @@ from mbla.soil_mesh.corner_step import corner_step
 from mbla.soil_mesh.planar_program import Mechanism, find_mechanism, with_unit_live_load
 from mbla.soil_mesh.planar_scene import PlanarScene, areas_of
 
-
 FLOOR = 0.1
 """of the least area: what cells at it may lose by the curvature of their area, which the linear program does not see"""
 
