@@ -109,9 +109,7 @@ def _of_soil(model: Model, bodies: IntArray, names: Sequence[str], rows: IntArra
     """Interfaces (n, 2) of soil, (n,), to which it gives their laws in ``rows``."""
     if not model.soils:
         return np.zeros(len(rows), dtype=bool)
-    own = np.full(len(model.blocks) + len(model.grounds), -1)
-    for number, soil in enumerate(model.soils):
-        own[soil.blocks] = number
+    own = np.append(model.soil_of_block, np.full(len(model.grounds), -1))
     joints, walls = (
         np.array([names.index(getattr(soil, key)) for soil in model.soils]) for key in ("joint", "wall_joint")
     )

@@ -190,6 +190,14 @@ class Model:
         return np.flatnonzero(~self.fixed)
 
     @property
+    def soil_of_block(self) -> IntArray:
+        """Row in ``soils`` of the soil that each block is a cell of, (n_blocks,); -1 for a block of its own."""
+        rows = np.full(len(self.blocks), -1)
+        for row, soil in enumerate(self.soils):
+            rows[soil.blocks] = row
+        return rows
+
+    @property
     def weights(self) -> FloatArray:
         """Of each block under standard gravity, 9.81 m/s2, added mass included, (n_blocks,) in the unit of force."""
         return np.asarray(self.blocks.masses * self.units.standard_gravity * self.units.force_per_mass_acceleration)

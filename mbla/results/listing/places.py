@@ -27,7 +27,45 @@ DIGITS = 2
 
 
 def group_words(model: Model, blocks: IntArray) -> str:
-    """Of blocks, (n,): ``arch[3..9]``, ``12 blocks of wall``, ``40 blocks of pier, wall and 2 more groups``."""
+    """Of blocks, (n,): ``arch[3..9]``, ``12 blocks of wall``, ``40 blocks of pier, wall and 2 more groups``.
+
+    Cells of soil are a wedge of it: ``strip[0] and a wedge of soil, 34 cells``.
+    """
+    soil = model.soil_of_block[blocks]
+    others = blocks[soil < 0]
+    words = [_names_of(model, others)] if len(others) else []
+    if len(others) < len(blocks):
+        words.append(f"a wedge of {soil_words(model, soil[soil >= 0])}, {counted(len(blocks) - len(others), 'cell')}")
+    return " and ".join(words)
+
+
+def soil_words(model: Model, rows: IntArray) -> str:
+    """``soil`` where it is called that or there are several, else ``soil road``; rows (n,) of ``model.soils``."""
+    names = {model.soils[row].name for row in rows.tolist()}
+    return "soil" if len(names) > 1 or names == {"soil"} else f"soil {names.pop()}"
+
+
+def counted_blocks(model: Model, word: str = "block") -> str:
+    """All blocks and soils: ``41 blocks``, or ``41 blocks, soil road of 320 cells``."""
+    own = int((model.soil_of_block < 0).sum())
+    soils = [
+        f"{soil_words(model, np.array([row]))} of {counted(len(soil.triangles), 'cell')}"
+        for row, soil in enumerate(model.soils)
+    ]
+    return ", ".join([counted(own, word), *soils])
+
+
+def counted_of(model: Model, blocks: IntArray, word: str = "block") -> str:
+    """Some blocks, (n,): ``12 free blocks and 34 cells of soil road``."""
+    soil = model.soil_of_block[blocks]
+    cells = soil[soil >= 0]
+    own = [counted(len(blocks) - len(cells), word)] if len(cells) < len(blocks) or not len(cells) else []
+    return " and ".join(
+        [*own, *([f"{counted(len(cells), 'cell')} of {soil_words(model, cells)}"] if len(cells) else [])]
+    )
+
+
+def _names_of(model: Model, blocks: IntArray) -> str:
     groups = list(dict.fromkeys(model.blocks.groups[block] for block in blocks.tolist()))
     numbers = model.blocks.group_indices[blocks]
     first, last = int(numbers.min()), int(numbers.max())

@@ -10,6 +10,7 @@ from mbla.model.model import Model
 from mbla.results.force_range import force_ranges_of
 from mbla.results.listing.answers import answer_columns, range_words, spread_over_positions, status_words, worst_words
 from mbla.results.listing.blocks import Block, Paragraph, paragraphs, table_of
+from mbla.results.listing.places import counted_blocks
 from mbla.results.listing.sections.assessment_words import assessment_words, code_verdict
 from mbla.results.listing.sections.mechanism_words import description_of, mechanism_summary
 from mbla.results.listing.sections.pushover import curve_words, no_curve_words
@@ -55,7 +56,7 @@ def summary_lines(results: Results) -> list[str]:
     """At most ``WIDTH`` columns wide: model, table of cases, each case in words, warnings."""
     model, contacts = results.model, results.contacts
     counts = (
-        f"{results.deck.name}: {counted(len(model.blocks), 'block')}, {counted(len(contacts), 'interface')}, "
+        f"{results.deck.name}: {counted_blocks(model)}, {counted(len(contacts), 'interface')}, "
         f"{counted(len(contacts.points), 'contact point')}, weight {number(model.total_weight)} {model.units.force}"
     )
     detailed = detailed_cases(results.cases)

@@ -23,7 +23,7 @@ from mbla.results.collapse.joint_planes import HingeLine, SlidingPlane
 from mbla.results.collapse.rigid_parts import PartMotion, moving_blocks, moving_share, reach
 from mbla.results.collapse.thrust import curvature_sides
 from mbla.results.listing.blocks import MOST_ROWS, Block, apart, table_of
-from mbla.results.listing.places import direction_words, extents_of, group_words, point_words, span_words
+from mbla.results.listing.places import counted_of, direction_words, extents_of, group_words, point_words, span_words
 from mbla.results.listing.text import counted, number, percent
 from mbla.results.results import CaseResult
 
@@ -89,7 +89,14 @@ def _moving(model: Model, collapse: Collapse, failure: Failure) -> str:
         return "no block moves"
     how = "as one rigid part" if parts == 1 else f"in {parts} rigid parts"
     verb = ("moves" if moving == 1 else "move") + ("" if failure.explained == 1.0 else " mainly")
-    return f"{moving} of {counted(len(model.free), 'free block')} {verb} {how}"
+    cells = model.soil_of_block >= 0
+    if not cells[model.free].any():
+        return f"{moving} of {counted(len(model.free), 'free block')} {verb} {how}"
+    moves = ~model.fixed & (collapse.parts > 0)
+    of_soil = f"{int(moves[cells].sum())} of {counted_of(model, np.flatnonzero(cells & ~model.fixed))}"
+    own = np.flatnonzero(~cells & ~model.fixed)
+    blocks = [f"{int(moves[own].sum())} of {counted(len(own), 'free block')}"] if len(own) else []
+    return f"{' and '.join([*blocks, of_soil])} {verb} {how}"
 
 
 def failure_sentences(model: Model, load_case: LoadCase, collapse: Collapse, failure: Failure) -> list[str]:
@@ -115,7 +122,7 @@ def _part_sentence(model: Model, load_case: LoadCase, part: PartMotion) -> str:
     if part.turns and not _is_far(model, part) and not _is_at_rest(part, _size_of(model, part)):
         motion += f", its centroid moving along {_way(part)}"
     if len(part.blocks) == len(model.free):
-        return f"Everything that is free ({counted(len(part.blocks), 'block')}) {motion}."
+        return f"Everything that is free ({counted_of(model, part.blocks)}) {motion}."
     total = float(model.weights[model.free].sum())
     details = [group_words(model, part.blocks), span_words(model, part.blocks)]
     details += [f"{100 * part.weight / total:.3g} % of the weight"] if total > 0 else []

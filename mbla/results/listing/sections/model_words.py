@@ -9,10 +9,10 @@ import numpy as np
 from mbla import __version__
 from mbla.arrays import IntArray
 from mbla.errors import Notice
-from mbla.model.model import LoadCase, Model
+from mbla.model.model import Ground, LoadCase, Model
 from mbla.program.reductions.steps import ReductionOutcome, ReductionStep
 from mbla.results.listing.blocks import Block, Fact, ListingSection, Paragraph, apart, facts, paragraphs, table_of
-from mbla.results.listing.places import label_words
+from mbla.results.listing.places import label_words, soil_words
 from mbla.results.listing.sections.contact_words import contact_section, finding_sections
 from mbla.results.listing.sections.tie_words import tie_blocks, tie_title
 from mbla.results.listing.text import WIDTH, counted, lines_of, number, section_lines, sentence, text_of
@@ -84,9 +84,13 @@ def _loads(case: LoadCase) -> list[Block]:
 
 def _size(model: Model) -> list[Fact]:
     """Blocks with their volume and weight, and what counts to it."""
-    blocks, units = model.blocks, model.units
+    blocks, units, own = model.blocks, model.units, np.flatnonzero(model.soil_of_block < 0)
     rows = [
-        Fact("blocks", f"{len(blocks)}, of them {len(model.free)} free and {int(model.fixed.sum())} fixed"),
+        Fact(
+            "blocks",
+            f"{len(own)}, of them {int((~model.fixed[own]).sum())} free and {int(model.fixed[own].sum())} fixed",
+        ),
+        *_soils(model),
         *_extents(model),
         Fact("volume", f"{number(float(blocks.volumes.sum()))} {units.length}3"),
         Fact("weight (9.81 m/s2)", f"{number(model.total_weight)} {units.force}"),
@@ -102,13 +106,28 @@ def _size(model: Model) -> list[Fact]:
     return rows
 
 
+def _soils(model: Model) -> list[Fact]:
+    """Each soil of cells with the law of its joints to other blocks."""
+    rows = []
+    for row, soil in enumerate(model.soils):
+        sizes = model.blocks.sizes[soil.blocks]
+        weight = f"{number(float(model.weights[soil.blocks].sum()))} {model.units.force}"
+        size = f"{sizes.min():.3g} .. {sizes.max():.3g} {model.units.length}"
+        words = f"{counted(len(soil.triangles), 'rigid cell')} of {size}, {weight}; joint law {soil.joint}"
+        rows.append(Fact(soil_words(model, np.array([row])), f"{words}, to other blocks {soil.wall_joint}"))
+    return rows
+
+
 def _extents(model: Model) -> list[Fact]:
     """The box around the model and the sizes of its blocks: a wrong unit or scale shows here."""
     blocks, length = model.blocks, model.units.length
     least, greatest = blocks.vertices.min(axis=0), blocks.vertices.max(axis=0)
     spans = [f"{axis} {a:.4g} .. {b:.4g}" for axis, a, b in zip("xyz", least + 0.0, greatest + 0.0, strict=True)]
-    sizes = f"{number(blocks.sizes.min())} .. {number(blocks.sizes.max())} {length}, cube roots of the volumes"
-    return [Fact("extents", f"{', '.join(spans)} {length}"), Fact("block sizes", sizes)]
+    extents, own = [Fact("extents", f"{', '.join(spans)} {length}")], blocks.sizes[model.soil_of_block < 0]
+    if not len(own):
+        return extents
+    sizes = f"{number(own.min())} .. {number(own.max())} {length}, cube roots of the volumes"
+    return [*extents, Fact("block sizes", sizes)]
 
 
 def _group_table(model: Model) -> list[Block]:
@@ -127,12 +146,17 @@ def _group_table(model: Model) -> list[Block]:
             ]
         )
     volume, weight = f"volume [{units.length}3]", f"weight [{units.force}]"
-    return table_of(["group", "blocks", "fixed", volume, weight, f"density [{units.mass}/{units.length}3]"], rows)
+    pieces = "blocks or cells" if model.soils else "blocks"
+    return table_of(["group", pieces, "fixed", volume, weight, f"density [{units.mass}/{units.length}3]"], rows)
 
 
 def _labels(model: Model) -> list[Block]:
     """What selectors can say within each group."""
-    said = {name: label_words(model.blocks.labels, chosen) for name, chosen in _blocks_of_groups(model).items()}
+    said = {
+        name: label_words(model.blocks.labels, chosen)
+        for name, chosen in _blocks_of_groups(model).items()
+        if (model.soil_of_block[chosen] < 0).all()
+    }
     return paragraphs(*(f"{name}: {words}" for name, words in said.items() if words))
 
 
@@ -163,13 +187,28 @@ def _joint_table(model: Model) -> list[Block]:
 def _supports(model: Model) -> list[Block]:
     says = []
     for ground in model.grounds:
-        only = "" if ground.blocks is None else f", under {counted(len(ground.blocks), 'block')} only"
-        says.append(f"rigid {ground.label} with joint law {ground.joint}{only}")
+        only = "" if ground.blocks is None else f", under {_under(model, ground.blocks)} only"
+        says.append(f"rigid {ground.label} with joint law {_laws_on(model, ground)}{only}")
     for name, chosen in _blocks_of_groups(model).items():
         held = int(model.fixed[chosen].sum())
         if held:
             says.append(f"{counted(held, 'block')} of group {name} fixed")
     return paragraphs(*says, *model.guides.words) or [Paragraph("none")]
+
+
+def _under(model: Model, blocks: IntArray) -> str:
+    """``3 blocks``, ``1 block and soil road``."""
+    soil = model.soil_of_block[blocks]
+    own = [counted(int((soil < 0).sum()), "block")] if (soil < 0).any() else []
+    return " and ".join([*own, *([soil_words(model, soil[soil >= 0])] if (soil >= 0).any() else [])])
+
+
+def _laws_on(model: Model, ground: Ground) -> str:
+    """That of the ground; under cells of soil that of the soil takes its place."""
+    soil = model.soil_of_block if ground.blocks is None else model.soil_of_block[ground.blocks]
+    laws = dict.fromkeys(model.soils[row].joint for row in np.unique(soil[soil >= 0]).tolist())
+    own = [ground.joint] if (soil < 0).any() and ground.joint not in laws else []
+    return ", ".join([*own, *(f"{law} under soil" if own else law for law in laws)])
 
 
 FOUND = {

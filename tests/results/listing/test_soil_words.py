@@ -1,0 +1,53 @@
+"""Soil of cells in words: it is no set of blocks."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from mbla.model.model import Model
+from mbla.results.listing.places import counted_blocks, counted_of, group_words
+from mbla.results.listing.sections.model_words import model_sections
+from mbla.results.listing.text import section_lines
+from tests.model.soil.decks import ARCH, BACKFILL, GROUND, WALL, fill, model
+
+
+def test_counts_tell_soil_beside_blocks(tmp_path: Path) -> None:
+    found = model(tmp_path, WALL, BACKFILL, supports=GROUND)
+    cells = len(found.blocks) - 1
+    assert counted_blocks(found) == f"1 block, soil backfill of {cells} cells"
+    assert counted_of(found, np.arange(3), "free block") == "1 free block and 2 cells of soil backfill"
+    assert counted_of(found, np.arange(1, 3)) == "2 cells of soil backfill"
+    assert counted_of(found, np.arange(0)) == "0 blocks"
+
+
+def test_a_soil_that_is_called_so_is_not_named_twice(tmp_path: Path) -> None:
+    found = model(tmp_path, ARCH, fill=fill())
+    assert counted_blocks(found) == f"15 blocks, soil of {len(found.blocks) - 15} cells"
+
+
+def test_parts_of_soil_are_wedges(tmp_path: Path) -> None:
+    found = model(tmp_path, WALL, BACKFILL, supports=GROUND)
+    assert group_words(found, np.array([1, 3, 4])) == "a wedge of soil backfill, 3 cells"
+    assert group_words(found, np.array([0, 2])) == "wall[0] and a wedge of soil backfill, 1 cell"
+
+
+def test_the_law_on_ground_is_that_of_the_soil_under_it(tmp_path: Path) -> None:
+    supports = "[{ground: {z: 0}, blocks: backfill}]"
+    assert "rigid ground z = 0 with joint law backfill, under soil backfill only" in _words(
+        model(tmp_path, WALL, BACKFILL, supports=supports)
+    )
+    assert "rigid ground z = 0 with joint law dry, backfill under soil\n" in _words(
+        model(tmp_path, WALL, BACKFILL, supports=GROUND)
+    )
+
+
+def test_the_model_lists_soil_apart(tmp_path: Path) -> None:
+    words = _words(model(tmp_path, WALL, BACKFILL, supports=GROUND))
+    assert "1, of them 1 free and 0 fixed" in words
+    assert "joint law backfill, to other blocks" in " ".join(words.split())
+
+
+def _words(found: Model) -> str:
+    return "\n".join(section_lines(model_sections(found)))
