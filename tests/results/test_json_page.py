@@ -14,6 +14,7 @@ import pytest
 from mbla.cli import main
 from mbla.deck.content import OutputSection
 from tests.line import BLOCK, HEAD
+from tests.model.soil.decks import BACKFILL, GROUND, TEXT, WALL
 from tests.results.json_keys import values_below
 from tests.results.outputs import write_outputs
 from tests.results.results_md import table
@@ -55,6 +56,8 @@ load_cases:
   drive: {live: [{travel: {force: [1000, 0, -1000], path: [[1.5, 0.5, 1.5], [2, 0.5, 1.5]], positions: 2}}]}
   thrust: {objective: {force: {on: beam, from: left, direction: [0, 0, 1]}}}
 """
+COHESIVE = BACKFILL.replace("friction_angle: 30", "friction_angle: 30, cohesion: 10 kPa, tensile_strength: 5 kPa")
+SOIL = TEXT.format(blocks=f"  - {WALL}\n  - {COHESIVE}", contacts="", supports=GROUND, fill="")
 JSON_TYPES: dict[str, tuple[type, ...]] = {
     "integer": (int,),
     "number": (int, float),
@@ -73,11 +76,12 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Folder with the decks of small runs, the results of two of them, and results in which everything has a value."""
     folder = tmp_path_factory.mktemp("runs")
     decks = {"deck": BLOCK + FOUND, "ledge": LEDGE, "lonely": LONELY, "sweep": SWEEP}
-    for name, deck in (decks | {"pushed": PUSHED, "questions": QUESTIONS}).items():
+    for name, deck in (decks | {"pushed": PUSHED, "questions": QUESTIONS, "soil": SOIL}).items():
         (folder / f"{name}.yaml").write_text(deck, encoding="utf-8")
     with chdir(folder):
         assert main(["run", "pushed.yaml"]) == 0
         assert main(["run", "questions.yaml"]) == 0
+        assert main(["run", "soil.yaml"]) == 0
     write_outputs(full_results(), folder / "tower.out", "tower", force=False, output=OutputSection(vtu=False))
     return folder
 
@@ -125,7 +129,7 @@ def unseen(known: Keys, *records: dict[str, Any]) -> set[str]:
 
 
 def test_json_of_runs_and_checks(folder: Path, answered: Any) -> None:
-    paths = [folder / f"{name}.out" / f"{name}.json" for name in ("tower", "pushed", "questions")]
+    paths = [folder / f"{name}.out" / f"{name}.json" for name in ("tower", "pushed", "questions", "soil")]
     runs = [json.loads(path.read_text(encoding="utf-8")) for path in paths]
     checked = [answered("check", "deck.yaml"), answered("check", "lonely.yaml")]
     without = unseen(keys_of("JSON record"), *runs, *checked)

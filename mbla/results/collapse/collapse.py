@@ -46,6 +46,7 @@ from mbla.results.collapse.interface_modes import InterfaceMotion, interface_mot
 from mbla.results.collapse.joint_planes import HingeLine, SlidingPlane, cluster_joints, hinge_lines, sliding_planes
 from mbla.results.collapse.mechanics import Work, work_of
 from mbla.results.collapse.rigid_parts import PartMotion, part_motions, rigid_parts
+from mbla.results.collapse.slip_lines import SlipLine, slip_lines
 from mbla.results.collapse.ties import TieState, tie_rows
 from mbla.solution.full_model.contact_modes import contact_modes
 from mbla.solution.solution import Mechanics
@@ -149,6 +150,7 @@ class Failure:
     sliding_planes : the one that dissipates most first
     cracks         : the one that opens most first
     yield_lines    : along which parts that stand for many break off, the longest first
+    slip_lines     : in soil of cells, whose joints are in none of the lines before; the one that moves most first
     """
 
     clusters: IntArray
@@ -158,13 +160,16 @@ class Failure:
     sliding_planes: tuple[SlidingPlane, ...]
     cracks: tuple[Crack, ...]
     yield_lines: tuple[YieldLine, ...]
+    slip_lines: tuple[SlipLine, ...] = ()
 
 
 @kept
 def failure_of(model: Model, contacts: Contacts, collapse: Collapse, mechanics: Mechanics) -> Failure:
     """From the exact rigid parts and interfaces of a mechanism."""
     found = clusters_of(model, collapse.parts, mechanics.mechanism)
-    joints = cluster_joints(model, contacts, found.of_block, mechanics)
+    every = cluster_joints(model, contacts, found.of_block, mechanics)
+    soil = collapse.interfaces.in_soil
+    joints = replace(every, between=every.between & ~soil)
     return Failure(
         clusters=found.of_block,
         motions=found.motions,
@@ -173,6 +178,7 @@ def failure_of(model: Model, contacts: Contacts, collapse: Collapse, mechanics: 
         sliding_planes=sliding_planes(contacts, collapse.interfaces, joints, collapse.work, found.neglected),
         cracks=cracks(contacts, collapse.interfaces, joints, mechanics),
         yield_lines=yield_lines(contacts, found.of_block, len(model.grounds)),
+        slip_lines=slip_lines(model, contacts, every, soil, collapse.work),
     )
 
 
@@ -199,14 +205,17 @@ def mechanism_class(failure: Failure) -> MechanismClass:
     """The class of a mechanism."""
     lines = [line for line in failure.hinge_lines if line.share >= NOTABLE]
     planes = [plane for plane in failure.sliding_planes if plane.share >= NOTABLE]
-    slides = bool(planes) or any(_slides(line) for line in lines)
+    slips = any(line.share >= NOTABLE for line in failure.slip_lines)
+    slides = bool(planes) or slips or any(_slides(line) for line in lines)
     if lines and slides:
         return MechanismClass.SLIDING_AND_HINGING
     if lines:
         on_rest = all(0 in line.clusters for line in lines)
         return MechanismClass.OVERTURNING if on_rest else MechanismClass.HINGING
-    if planes:
-        return MechanismClass.TWISTING if all(plane.twists for plane in planes) else MechanismClass.SLIDING
+    if slides:
+        return (
+            MechanismClass.TWISTING if not slips and all(plane.twists for plane in planes) else MechanismClass.SLIDING
+        )
     return MechanismClass.OPENING
 
 

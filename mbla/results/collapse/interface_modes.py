@@ -119,6 +119,7 @@ class InterfaceMotion:
     hinge_directions: (n_interfaces, 3) its unit direction, b turns about it relative to a by the right hand; nan for
                       other modes
     hinge_ends      : (n_interfaces, 2, 3) m, where the hinge begins and ends within the interface; nan for other modes
+    in_soil         : (n_interfaces,) of cells of soil, with each other, with blocks or with ground
     """
 
     modes: IntArray
@@ -129,10 +130,11 @@ class InterfaceMotion:
     hinge_points: FloatArray
     hinge_directions: FloatArray
     hinge_ends: FloatArray
+    in_soil: BoolArray
 
     def count(self, mode: InterfaceMode) -> int:
-        """Interfaces of that mode."""
-        return int(np.sum(self.modes == mode))
+        """Interfaces of that mode, but for those of cells of soil: what these do says how the soil is divided."""
+        return int(np.sum((self.modes == mode) & ~self.in_soil))
 
 
 def together_of(mechanics: Mechanics) -> float:
@@ -174,7 +176,14 @@ def interface_motion(model: Model, contacts: Contacts, mechanics: Mechanics) -> 
         translation,
         rotation,
         *_axes(contacts, modes == InterfaceMode.HINGE, is_open, opening, rotation),
+        in_soil=in_soil(model, contacts),
     )
+
+
+def in_soil(model: Model, contacts: Contacts) -> BoolArray:
+    """Whether a cell of soil is on a side of each interface, (n_interfaces,)."""
+    cell = np.append(model.soil_of_block >= 0, np.zeros(len(model.grounds), dtype=bool))
+    return np.asarray(cell[contacts.bodies].any(axis=1))
 
 
 def relative_motion(model: Model, contacts: Contacts, motion: FloatArray) -> tuple[FloatArray, FloatArray]:

@@ -100,7 +100,7 @@ def _forces(
     )
     return {
         "Work": [
-            *enough_blocks(case, enough_of(model, contacts, how.collapse.parts)),
+            *enough_blocks(model, case, enough_of(model, contacts, how.collapse.parts)),
             *work_blocks(load_case, how.collapse.work, soil=bool(model.ties.of_fill.any())),
         ],
         "Reactions": [

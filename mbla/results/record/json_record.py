@@ -108,9 +108,24 @@ def dimension(results: Results) -> int:
 
 
 MODEL.quantities.append(STORED_BY_PATH["model/title"])
-_MODEL.fields(
-    Model, blocks=Field("blocks", by=count), free_blocks=Field("blocks that can move", attribute="free", by=count)
-)
+
+
+@_MODEL.key()
+def blocks(model: Model) -> int:
+    """Blocks, cells of soil not among them."""
+    return int((model.soil_of_block < 0).sum())
+
+
+@_MODEL.key()
+def free_blocks(model: Model) -> int:
+    """Those of them that can move."""
+    return int((model.soil_of_block[model.free] < 0).sum())
+
+
+@_MODEL.key("of a soil")
+def soil_cells(model: Model) -> dict[str, int]:
+    """Rigid cells of each soil."""
+    return {soil.name: len(soil.triangles) for soil in model.soils}
 
 
 @_BLOCKS.key("a corner", "a coordinate", unit="length")

@@ -16,7 +16,7 @@ from mbla.results.collapse.rigid_parts import reach as reach_of
 from mbla.results.outcome import dimension_of
 from mbla.results.quantities.group import Field, count, total
 from mbla.results.quantities.registry import COLUMN
-from mbla.results.record.mechanism_lines import CRACK, HINGE_LINE, PART, SLIDING_PLANE, YIELD_LINE, Part
+from mbla.results.record.mechanism_lines import CRACK, HINGE_LINE, PART, SLIDING_PLANE, SLIP_LINE, YIELD_LINE, Part
 from mbla.results.record.objects import Object
 from mbla.results.record.scene import Scene
 from mbla.solution.solution import ContactMode, Mechanics
@@ -53,7 +53,7 @@ _declare_points(ContactMode.CRUSH, "contact points that crush")
 _declare_points(ContactMode.STICK, "contact points that do none of these")
 
 
-@_INTERFACES.key("interfaces that stick, slide, open, hinge, twist, crush", name="interfaces")
+@_INTERFACES.key("interfaces that stick, slide, open, hinge, twist, crush; none of cells of soil", name="interfaces")
 def interfaces_by_mode(motion: InterfaceMotion) -> dict[str, int]:
     """Interfaces by mode."""
     return {mode.name.lower(): motion.count(mode) for mode in InterfaceMode}
@@ -131,6 +131,9 @@ _FAILURE.fields(
         "share of the motion, as volume-weighted square, that they reproduce", attribute="explained"
     ),
     yield_lines=Field("lines along which clusters break off, the longest first", items=ONE, inside=YIELD_LINE, by=most),
+    slip_lines=Field(
+        "joints of cells of soil between two clusters, those that move most first", items=ONE, inside=SLIP_LINE, by=most
+    ),
 )
 
 

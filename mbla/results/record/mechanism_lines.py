@@ -9,6 +9,7 @@ from mbla.model.model import Model
 from mbla.results.collapse.cracks import Crack, YieldLine
 from mbla.results.collapse.joint_planes import HingeLine, SlidingPlane
 from mbla.results.collapse.rigid_parts import PartMotion
+from mbla.results.collapse.slip_lines import SlipLine
 from mbla.results.quantities.group import Field, count
 from mbla.results.record.objects import Object
 
@@ -23,7 +24,7 @@ class Part:
 
 PART, HINGE_LINE, SLIDING_PLANE = Object[Part](), Object[HingeLine](), Object[SlidingPlane]()
 _MOTION = PART.of(lambda of: of.motion)
-CRACK, YIELD_LINE = Object[Crack](), Object[YieldLine]()
+CRACK, YIELD_LINE, SLIP_LINE = Object[Crack](), Object[YieldLine](), Object[SlipLine]()
 
 
 _MOTION.fields(
@@ -97,6 +98,19 @@ YIELD_LINE.fields(
     parts=Field("the clusters on both sides; 0 is at rest and comes second", "cluster"),
     interfaces=INTERFACES,
     off=Field("distance of the interfaces from it over its length, root of the mean square"),
+)
+
+
+SLIP_LINE.fields(
+    SlipLine,
+    clusters=Field("the cluster that moves, and that against which it does; 0 is at rest", "cluster"),
+    interfaces=INTERFACES,
+    start=Field("start of the line, in the middle of the width", "axis", "length"),
+    end=Field("its end", "axis", "length"),
+    length=Field("length along it", unit="length"),
+    area=Field("area of its interfaces", unit="area"),
+    share=Field("its largest contact speed over the largest of all"),
+    shear_power_share=Field("share of the power put in that its shear forces dissipate", rule="open"),
 )
 
 

@@ -16,6 +16,7 @@ from mbla.results.collapse.mechanics import (
 )
 from mbla.results.collapse.thrust import thrust_of
 from mbla.results.listing.blocks import MOST_ROWS, Block, Paragraph, apart, table_of
+from mbla.results.listing.places import counted_of
 from mbla.results.listing.text import counted, number, vector
 from mbla.results.outcome import result_of
 from mbla.results.results import CaseResult
@@ -81,15 +82,17 @@ def lock_blocks(model: Model, contacts: Contacts, lock: FloatArray) -> list[Bloc
 # --- What of a structure counts for its load factor, and how unique its forces are, in words ------------------------
 
 
-def enough_blocks(case: CaseResult, enough: Enough) -> list[Block]:
+def enough_blocks(model: Model, case: CaseResult, enough: Enough) -> list[Block]:
     """The reduced model with the same load factor; nothing where every free block moves or the case has no result."""
-    resting = len(enough.bearing) + len(enough.left_out)
-    if result_of(case) is None or not resting or not len(enough.moving):
+    resting = np.append(enough.bearing, enough.left_out)
+    if result_of(case) is None or not len(resting) or not len(enough.moving):
         return []
-    moving, rest = counted(len(enough.moving), "moving block"), counted(resting, "stationary free block")
+    moving = counted_of(model, enough.moving, "moving block")
+    rest = counted_of(model, resting, "stationary free block")
+    left_out = f"{len(enough.left_out)} of them" if not model.soils else counted_of(model, enough.left_out)
     says = (
         f"Reduced model: {moving} with {counted(len(enough.interfaces), 'interface')}. Fixing the {rest} leaves the "
-        f"load factor unchanged; {len(enough.left_out)} of them touch no moving block and can be removed."
+        f"load factor unchanged; {left_out} touch no moving block and can be removed."
     )
     return [Paragraph(says)]
 

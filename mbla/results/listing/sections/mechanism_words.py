@@ -23,7 +23,15 @@ from mbla.results.collapse.joint_planes import HingeLine, SlidingPlane
 from mbla.results.collapse.rigid_parts import PartMotion, moving_blocks, moving_share, reach
 from mbla.results.collapse.thrust import curvature_sides
 from mbla.results.listing.blocks import MOST_ROWS, Block, apart, table_of
-from mbla.results.listing.places import counted_of, direction_words, extents_of, group_words, point_words, span_words
+from mbla.results.listing.places import (
+    counted_of,
+    direction_words,
+    extents_of,
+    group_words,
+    point_words,
+    span_words,
+)
+from mbla.results.listing.sections.slip_line_words import slip_table
 from mbla.results.listing.text import counted, number, percent
 from mbla.results.results import CaseResult
 
@@ -73,6 +81,7 @@ def mechanism_summary(model: Model, collapse: Collapse, failure: Failure) -> str
         (count(InterfaceMode.TWIST), "twisting at {}", "interface"),
         (count(InterfaceMode.OPEN), "{} open", "interface"),
         (int(collapse.interfaces.crushes.sum()), "crushing at {}", "interface"),
+        (len(failure.slip_lines), "{} in soil", "slip line"),
         (collapse.yielding, "{} yielding", "tie"),
         (collapse.soil[0], "soil at its passive limit on {}", "face"),
         (collapse.soil[1], "soil at its active limit on {}", "face"),
@@ -182,7 +191,8 @@ def mechanism_blocks(assembly: Assembly, load_case: LoadCase, failure: Failure) 
         blocks += apart(_hinge_table(model, contacts, outward, failure.hinge_lines))
     if failure.sliding_planes:
         blocks += apart(_sliding_table(model, contacts, failure.sliding_planes))
-    return blocks + (apart(_crack_table(model, contacts, failure.cracks)) if failure.cracks else [])
+    blocks += apart(_crack_table(model, contacts, failure.cracks)) if failure.cracks else []
+    return blocks + (apart(slip_table(model, contacts, failure.slip_lines)) if failure.slip_lines else [])
 
 
 def part_table(model: Model, motions: Sequence[PartMotion]) -> list[Block]:

@@ -1,0 +1,58 @@
+"""Slip lines of soil of cells: a wedge behind a wall that gives way."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import mbla
+from mbla.results.collapse.collapse import Failure, mechanism_class
+from mbla.results.collapse.interface_modes import InterfaceMode
+from mbla.results.listing.listing import listing
+from mbla.results.record.scene import Scene, scene_of
+from mbla.results.results import Results
+
+DECK = Path(__file__).parents[3] / "decks" / "benchmarks" / "closed_forms" / "active_earth_pressure.yaml"
+
+
+@pytest.fixture(scope="module")
+def results() -> Results:
+    return mbla.run(DECK).records
+
+
+@pytest.fixture(scope="module")
+def scene(results: Results) -> Scene:
+    return scene_of(results, results.cases[0])
+
+
+@pytest.fixture(scope="module")
+def failure(scene: Scene) -> Failure:
+    assert scene.failure is not None
+    return scene.failure
+
+
+def test_a_wedge_slips_on_a_line_and_along_the_wall(failure: Failure) -> None:
+    on_rest, on_wall = sorted(failure.slip_lines, key=lambda line: line.clusters)
+    assert on_rest.clusters == (2, 0)
+    assert on_wall.clusters == (2, 1)
+    np.testing.assert_allclose(on_rest.start, [0, 0.5, 0], atol=1e-6)
+    np.testing.assert_allclose(on_rest.end, [np.tan(np.radians(30)), 0.5, 1], atol=1e-6)
+    assert on_rest.length == pytest.approx(1 / np.cos(np.radians(30)))
+    assert on_wall.length == pytest.approx(1)
+
+
+def test_joints_of_cells_are_told_as_nothing_else(scene: Scene, failure: Failure) -> None:
+    assert not (failure.hinge_lines + failure.sliding_planes + failure.cracks)
+    assert scene.interfaces is not None
+    assert scene.interfaces.in_soil.all()
+    assert not any(scene.interfaces.count(mode) for mode in InterfaceMode)
+    assert mechanism_class(failure) == "sliding"
+
+
+def test_the_listing_tells_slip_lines(results: Results) -> None:
+    text = " ".join(listing(results).split())
+    assert "2 slip lines in soil; 1 of 1 free block and 1 of 3 cells of soil backfill move in 2 rigid parts" in text
+    assert "soil backfill on wall 2/1 (0, 0.5, 0) (0, 0.5, 1) 1 " in text
+    assert "a wedge of soil backfill, 1 cell" in text
