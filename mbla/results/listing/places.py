@@ -45,14 +45,17 @@ def soil_words(model: Model, rows: IntArray) -> str:
     return "soil" if len(names) > 1 or names == {"soil"} else f"soil {names.pop()}"
 
 
-def counted_blocks(model: Model, word: str = "block") -> str:
+def counted_blocks(model: Model) -> str:
     """All blocks and soils: ``41 blocks``, or ``41 blocks, soil road of 320 cells``."""
-    own = int((model.soil_of_block < 0).sum())
-    soils = [
+    return ", ".join([counted(int((model.soil_of_block < 0).sum()), "block"), *counted_soils(model)])
+
+
+def counted_soils(model: Model) -> list[str]:
+    """``soil road of 320 cells`` and so on, one each."""
+    return [
         f"{soil_words(model, np.array([row]))} of {counted(len(soil.triangles), 'cell')}"
         for row, soil in enumerate(model.soils)
     ]
-    return ", ".join([counted(own, word), *soils])
 
 
 def counted_of(model: Model, blocks: IntArray, word: str = "block") -> str:

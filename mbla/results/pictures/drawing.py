@@ -29,6 +29,7 @@ from mbla.results.pictures.page import (
     REST,
     SLAB,
     SLOW,
+    SOIL,
     Page,
     add_axes,
     add_bar,
@@ -88,7 +89,11 @@ def drawing_of(scene: PictureScene, kind: str, view: tuple[float, float] | None 
     else:
         own, marks = part_colours(scene, GROUPS), joint_marks(scene, flat=flat is not None)
         legend = _parts(scene)
+    soil = scene.model.soil_of_block >= 0
+    held[soil & (held == "")] = SOIL if soil.any() else ""
+    supports = [("soil", SOIL)] * bool((held == SOIL).any()) + supports
     colours = [support or colour for support, colour in zip(held, own, strict=True)]
+    legend = [(name, colour) for name, colour in legend if colour in colours or colour == "white"]
     marks = [*marks, *tie_marks(scene, at_work=kind != "model"), *loads]
     return Drawing(flat, colours, legend + supports, marks, bool(scene.displaced.any()))
 

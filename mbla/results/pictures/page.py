@@ -37,6 +37,8 @@ REST = "#EDE6D4"
 """blocks that do not move"""
 SLOW = "#C5DE8F"
 """blocks that move, but in none of the few parts that stand for the mechanism: less than these"""
+SOIL = "#DCC7A3"
+"""soil of cells, at rest or moving: slip lines tell its parts"""
 HINGE, SLIDE, OPEN, CRUSH = VERMILION, GREEN, PURPLE, BLACK
 DEAD_LOAD, LIVE_LOAD, FILL = "#7A7A7A", BLUE, "#9A6B3F"
 THRUST, RESULTANT, OTHER_END = "#0A2FD0", "#5B1A8B", "#B8860B"

@@ -7,7 +7,7 @@ loads and is loaded stays in the plane.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -18,7 +18,7 @@ from mbla.model.model import Model
 from mbla.model.solids.blocks import Blocks
 from mbla.results.pictures.camera import Camera, axes_of
 from mbla.results.pictures.geometry import block_edges
-from mbla.results.pictures.marks.marks import Mark, moved
+from mbla.results.pictures.marks.marks import Mark, moved, outer_rows
 from mbla.results.pictures.page import GHOST, GROUND, INK, SLAB, Page
 from mbla.results.pictures.scene import PictureScene
 
@@ -36,6 +36,8 @@ THICK, FINEST, DOT = 3.0, 0.7, 9.0
 """width of lines, of the finest, and diameter of dots, points"""
 HATCH, DASHES = "xxxx", (0, (4, 3))
 """of areas where joints open, and of the outlines of blocks before they move"""
+SEAM = 0.8
+"""width of the edges of cells of soil in their own colour, points"""
 PALE = 0.3
 """strength of areas that are seen through"""
 END_ON = 2e-3
@@ -144,6 +146,18 @@ def seen_edges(blocks: Blocks, flat: Flat) -> IntArray:
     return edges[front[edges].all(axis=1)]
 
 
+def drawn_edges(scene: PictureScene, flat: Flat) -> IntArray:
+    """Edges of blocks that are seen; of cells of soil those that bound it, or a part of it that moves."""
+    blocks = scene.model.blocks
+    edges = seen_edges(blocks, flat)
+    owners = blocks.block_of_vertex[edges[:, 0]]
+    soil, parts = scene.model.soil_of_block[owners], scene.clusters[owners] * bool(scene.motion.any())
+    drawn, cells = soil < 0, np.flatnonzero(soil >= 0)
+    within = np.column_stack([soil[cells], parts[cells]])
+    drawn[cells] = outer_rows(blocks.vertices[edges[cells]], scene.size, within)
+    return np.asarray(edges[drawn])
+
+
 # --- The drawing ----------------------------------------------------------------------------------------------------
 
 
@@ -158,7 +172,11 @@ def draw_flat(page: Page, axes: Any, camera: Camera, scene: PictureScene, drawin
     _areas(page, axes, slabs, facecolors=SLAB, edgecolors=GROUND, hatch="////", linewidths=0, zorder=0.5)
     colours = [drawing.colours[block] for block in blocks.block_of_face[flat.faces]]
     _areas(page, axes, face_polygons(blocks, flat, now), facecolors=colours, edgecolors="none", zorder=1)
-    edges = seen_edges(blocks, flat)
+    of_soil = scene.model.soil_of_block[blocks.block_of_face[flat.faces]] >= 0
+    cells = face_polygons(blocks, replace(flat, faces=flat.faces[of_soil]), now)
+    look = {"edgecolors": "face", "linewidths": SEAM * page.scale, "zorder": 1}  # no paper between cells
+    _areas(page, axes, cells, facecolors=[colours[row] for row in np.flatnonzero(of_soil).tolist()], **look)
+    edges = drawn_edges(scene, flat)
     _lines(page, axes, now[edges], 1.0 if len(blocks) < MANY else 0.6, INK, zorder=2)
     moves = scene.displaced[blocks.block_of_vertex[edges[:, 0]]]
     dashes = {"linestyles": [DASHES], "alpha": 0.8, "zorder": 2.5}

@@ -15,7 +15,7 @@ from mbla.results.collapse.joint_planes import cluster_joints
 from mbla.results.collapse.motion import drawn_motion, largest_displacements, moved_vertices
 from mbla.results.collapse.thrust import points_to_draw
 from mbla.results.force_range import other_end
-from mbla.results.listing.places import counted_blocks
+from mbla.results.listing.places import counted_soils
 from mbla.results.listing.sections.mechanism_words import mechanism_summary
 from mbla.results.listing.text import counted, number
 from mbla.results.listing.verdict_words import verdict
@@ -170,9 +170,11 @@ class PictureScene(Scene):
         case, model = self.case, self.model
         title = model.title or self.results.deck.name
         if kind == "model":
-            units, free = model.units, int((model.soil_of_block[model.free] < 0).sum())
+            units, cells = model.units, model.soil_of_block >= 0
+            blocks, free = counted(int((~cells).sum()), "block"), int((~cells[model.free]).sum())
+            soils = "".join(f", {words}" for words in counted_soils(model))
             weight = f"weight {number(model.total_weight)} {units.force}"
-            return [title, f"{counted_blocks(model)}, {free} free; {weight}"]
+            return [title, f"{blocks}, {free} free{soils}; {weight}"]
         lines = [title, f"load case {case.load_case.name}: {verdict(model, case)}"]
         if kind == "forces":
             lines.append(self.force_words + self._unpressed_words())

@@ -88,11 +88,15 @@ def enough_blocks(model: Model, case: CaseResult, enough: Enough) -> list[Block]
     if result_of(case) is None or not len(resting) or not len(enough.moving):
         return []
     moving = counted_of(model, enough.moving, "moving block")
-    rest = counted_of(model, resting, "stationary free block")
-    left_out = f"{len(enough.left_out)} of them" if not model.soils else counted_of(model, enough.left_out)
+    if model.soils:
+        rest, left_out = counted_of(model, resting, "free block"), counted_of(model, enough.left_out)
+        fixing, far = f"what is at rest ({rest})", f"{left_out} touch nothing that moves"
+    else:
+        fixing = f"the {counted(len(resting), 'stationary free block')}"
+        far = f"{len(enough.left_out)} of them touch no moving block"
     says = (
-        f"Reduced model: {moving} with {counted(len(enough.interfaces), 'interface')}. Fixing the {rest} leaves the "
-        f"load factor unchanged; {left_out} touch no moving block and can be removed."
+        f"Reduced model: {moving} with {counted(len(enough.interfaces), 'interface')}. Fixing {fixing} leaves the "
+        f"load factor unchanged; {far} and can be removed."
     )
     return [Paragraph(says)]
 

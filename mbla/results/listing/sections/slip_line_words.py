@@ -33,11 +33,14 @@ def slip_table(model: Model, contacts: Contacts, lines: Sequence[SlipLine]) -> l
 
 
 def slip_words(model: Model, contacts: Contacts, line: SlipLine) -> str:
-    """``in soil road``, ``soil road on arch`` and so on: groups of blocks, and ground."""
+    """``in soil road``, ``soil road on arch``, ``in soil road and on ground``: groups of blocks, and ground."""
     bodies = np.unique(contacts.bodies[line.interfaces])
     blocks = bodies[bodies < len(model.blocks)]
     soil = model.soil_of_block[blocks]
     others = list(dict.fromkeys(model.blocks.groups[block] for block in blocks[soil < 0].tolist()))
     others += ["ground"] if len(blocks) < len(bodies) else []
-    name = soil_words(model, soil[soil >= 0])
-    return f"{name} on {', '.join(others)}" if others else f"in {name}"
+    name, cells = soil_words(model, soil[soil >= 0]), np.append(model.soil_of_block >= 0, [False] * len(model.grounds))
+    if not others:
+        return f"in {name}"
+    inside = cells[contacts.bodies[line.interfaces]].all(axis=1).any()
+    return f"in {name} and on {', '.join(others)}" if inside else f"{name} on {', '.join(others)}"

@@ -10,6 +10,7 @@ import numpy as np
 from mbla.arrays import BoolArray, IntArray
 from mbla.contacts.contacts import Contacts
 from mbla.results.collapse.interface_modes import InterfaceMode, InterfaceMotion
+from mbla.results.listing.text import number
 from mbla.results.pictures.marks.marks import Mark, arrows, interface_names, outer_rows, rings, segments
 from mbla.results.pictures.page import CRUSH, HINGE, INK, OPEN, SLIDE
 from mbla.results.pictures.scene import PictureScene
@@ -18,6 +19,8 @@ THIN = 0.3
 """thickness of hinges that the listing does not name and of outlines, over that of other hinges"""
 LEAST_SHARE, MOST_PLANES = 0.1, 20
 """share of the largest slip from which a sliding plane has an arrow, and how many have one"""
+ACROSS = 0.5
+"""cosine to the width of a soil below which a side of a joint is seen as its length"""
 LEAST_SLIP = 0.02
 """half length of the arrow of a small joint that slides, over the size of the structure"""
 
@@ -32,8 +35,8 @@ def joint_marks(scene: PictureScene, *, flat: bool = True) -> list[Mark]:
     if joints is None or not len(contacts) or not scene.motion.any():
         return []
     names = interface_names(scene.model, contacts)
-    slides = np.isin(joints.modes, (InterfaceMode.SLIDE, InterfaceMode.TWIST))
-    opens = np.isin(joints.modes, (InterfaceMode.OPEN, InterfaceMode.HINGE))
+    slides = np.isin(joints.modes, (InterfaceMode.SLIDE, InterfaceMode.TWIST)) & ~joints.in_soil
+    opens = np.isin(joints.modes, (InterfaceMode.OPEN, InterfaceMode.HINGE)) & ~joints.in_soil
     if not flat:
         slips = _slips(scene, joints, np.flatnonzero(slides & scene.apart), names)
         crushing = _outlines("crushing", CRUSH, contacts, joints.crushes & scene.apart, names)
@@ -46,6 +49,7 @@ def joint_marks(scene: PictureScene, *, flat: bool = True) -> list[Mark]:
         *_slips(scene, joints, np.flatnonzero(slides), names),
         _outlines("crushing", CRUSH, contacts, joints.crushes, names),
         _hinges(scene, joints, names),
+        slip_lines(scene, joints),
     ]
     return [mark for mark in found if len(mark.pairs)]
 
@@ -78,6 +82,26 @@ def cracks(scene: PictureScene, names: Sequence[str]) -> Mark:
     return replace(mark, covered=True)
 
 
+def slip_lines(scene: PictureScene, joints: InterfaceMotion) -> Mark:
+    """Joints of cells of soil that move notably, as part of both sides, the thicker the faster."""
+    contacts, model = scene.contacts, scene.model
+    speeds = np.where(joints.in_soil, np.linalg.norm(joints.translation, axis=1), 0.0)
+    most = float(speeds.max(initial=0.0))
+    moves = joints.in_soil & (joints.modes != InterfaceMode.STICK) & (speeds >= LEAST_SHARE * most)
+    sides = interface_sides(contacts, moves)
+    owners = contacts.interface_of_point[sides[:, 0]]
+    across = np.array([soil.axes[2] for soil in model.soils]).reshape(-1, 3)
+    soil = np.append(model.soil_of_block, np.full(len(model.grounds), -1))[contacts.bodies[owners]].max(axis=1)
+    steps = np.diff(contacts.points[sides], axis=1)[:, 0]
+    level = np.abs(np.einsum("ij,ij->i", steps, across[soil])) < ACROSS * np.linalg.norm(steps, axis=1)
+    sides, owners = np.tile(sides[level], (2, 1)), owners[level]
+    bodies = contacts.bodies[owners].T.ravel()
+    owners = np.tile(owners, 2)
+    widths = np.maximum(speeds[owners] / (most or 1.0), THIN)
+    texts = [f"slip line: {number(100 * speeds[row] / most)} % of the fastest" for row in owners.tolist()]
+    return segments("slip line", SLIDE, contacts.points[sides], np.column_stack([bodies, bodies]), texts, widths)
+
+
 def _outlines(name: str, colour: str, contacts: Contacts, chosen: BoolArray, names: list[str]) -> Mark:
     sides = interface_sides(contacts, chosen)
     owners = contacts.interface_of_point[sides[:, 0]]
@@ -107,7 +131,9 @@ def _opening(contacts: Contacts, chosen: BoolArray, names: list[str]) -> Mark:
 
 def _hinges(scene: PictureScene, joints: InterfaceMotion, names: list[str], chosen: BoolArray | None = None) -> Mark:
     """Axes of the interfaces, or of chosen ones, that open about one; those on hinge lines of the listing are thick."""
-    rows = np.flatnonzero((joints.modes == InterfaceMode.HINGE) & (True if chosen is None else chosen))
+    rows = np.flatnonzero(
+        (joints.modes == InterfaceMode.HINGE) & ~joints.in_soil & (True if chosen is None else chosen)
+    )
     widths = np.ones(len(rows))
     if scene.failure is not None:
         listed = [row for line in scene.failure.hinge_lines for row in line.interfaces.tolist()]
