@@ -186,6 +186,12 @@ def in_soil(model: Model, contacts: Contacts) -> BoolArray:
     return np.asarray(cell[contacts.bodies].any(axis=1))
 
 
+def within_soil(model: Model, contacts: Contacts) -> BoolArray:
+    """Whether both sides of each interface are cells of soil, (n_interfaces,)."""
+    cell = np.append(model.soil_of_block >= 0, np.zeros(len(model.grounds), dtype=bool))
+    return np.asarray(cell[contacts.bodies].all(axis=1))
+
+
 def relative_motion(model: Model, contacts: Contacts, motion: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Velocity at the centroid of each interface and angular velocity, of b relative to a, (n_interfaces, 3) each."""
     translation, rotation = np.zeros((len(contacts), 3)), np.zeros((len(contacts), 3))

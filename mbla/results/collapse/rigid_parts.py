@@ -188,8 +188,13 @@ def _axes(radius: FloatArray, velocity: FloatArray, rotation: FloatArray) -> tup
 
 
 def moving_blocks(model: Model, parts: IntArray) -> int:
-    """How many free blocks move, from the part of each, (n_blocks,)."""
-    return int(np.sum(~model.fixed & (parts > 0)))
+    """How many free blocks move, from the part of each, (n_blocks,); cells of soil are none."""
+    return int(np.sum(~model.fixed & (parts > 0) & (model.soil_of_block < 0)))
+
+
+def moving_cells(model: Model, parts: IntArray) -> int:
+    """How many cells of soil do."""
+    return int(np.sum(~model.fixed & (parts > 0) & (model.soil_of_block >= 0)))
 
 
 def moving_share(model: Model, parts: IntArray) -> float:

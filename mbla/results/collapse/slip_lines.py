@@ -88,7 +88,7 @@ def _ends_of(contacts: Contacts, interface: int, across: FloatArray) -> FloatArr
     way = np.cross(across, contacts.normals[interface])
     centre = contacts.centroids[interface]
     along = (points - centre) @ way
-    return centre + np.outer([along.min(), along.max()], way)
+    return np.asarray(centre + np.outer([along.min(), along.max()], way))
 
 
 def _ends_of_line(ends: FloatArray) -> tuple[FloatArray, FloatArray]:

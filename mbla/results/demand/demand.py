@@ -23,7 +23,8 @@ from mbla.solution.solution import Mechanics
 
 @dataclass(frozen=True)
 class Demand:
-    """Greatest stresses of each block, (n_blocks,) Pa; nan of blocks that are fixed, guided or glued to others.
+    """Greatest stresses of each block, (n_blocks,) Pa; nan of blocks that are fixed, guided or glued to others, and of
+    cells of soil.
 
     bending   : tension in its sections, 0 without any
     splitting : tension across its struts, 0 without any
@@ -48,7 +49,7 @@ def demand_of(assembly: Assembly, load_case: LoadCase, mechanics: Mechanics) -> 
 def demand_under(assembly: Assembly, acting: Acting) -> Demand:
     """Of any forces that balance the dead load and a multiple of the live load."""
     model, contacts = assembly.model.of_case(acting.load_case), assembly.contacts
-    judged, boxes = standing_alone(model, contacts), _boxes(assembly)
+    judged, boxes = standing_alone(model, contacts) & (model.soil_of_block < 0), _boxes(assembly)
     bearings = bearings_of(model, contacts, acting.contact_forces)
     actions = actions_on_blocks(model, contacts, acting, bearings)
     everywhere = np.ones(len(contacts), dtype=bool)

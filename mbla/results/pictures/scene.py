@@ -10,7 +10,7 @@ import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.results.collapse.collapse import NOTABLE, Collapse, Failure, failure_of, fall_of
-from mbla.results.collapse.interface_modes import InterfaceMotion
+from mbla.results.collapse.interface_modes import InterfaceMotion, within_soil
 from mbla.results.collapse.joint_planes import cluster_joints
 from mbla.results.collapse.motion import drawn_motion, largest_displacements, moved_vertices
 from mbla.results.collapse.thrust import points_to_draw
@@ -188,7 +188,9 @@ class PictureScene(Scene):
 
     def _unpressed_words(self) -> str:
         """How many forces have no point of application in their joint, and so are not in the picture."""
-        count = 0 if self.thrust is None else int(self.thrust.unpressed.sum())
+        if self.thrust is None:
+            return ""
+        count = int((self.thrust.unpressed & ~within_soil(self.model, self.contacts)).sum())
         return f"; not drawn: {counted(count, 'joint')} in tension or shear without compression" if count else ""
 
     def mark_of(self, kind: str) -> str:

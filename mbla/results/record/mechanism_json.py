@@ -11,6 +11,7 @@ from mbla.results.collapse.force_freedom import Enough, ForceFreedom, enough_of
 from mbla.results.collapse.force_freedom import force_freedom as freedom_of
 from mbla.results.collapse.interface_modes import InterfaceMode, InterfaceMotion
 from mbla.results.collapse.mechanics import Work, dissipated_by_joint, loads_by_group
+from mbla.results.collapse.rigid_parts import moving_cells as cells_that_move
 from mbla.results.collapse.rigid_parts import moving_share
 from mbla.results.collapse.rigid_parts import reach as reach_of
 from mbla.results.outcome import dimension_of
@@ -76,6 +77,12 @@ MECHANISM.quantities += [
     replace(COLUMN["moving_weight_share"], words="their share of the weight of the free blocks"),
     COLUMN["moving_parts"],
 ]
+
+
+@MECHANISM.key()
+def moving_cells(scene: Scene) -> int:
+    """Cells of soil that move."""
+    return cells_that_move(scene.model, scene.parts)
 
 
 def most(items: Sequence[Any]) -> list[Any]:

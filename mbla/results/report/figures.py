@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TypeAlias
 
 from mbla.errors import UsageError
+from mbla.results.listing.places import counted_soils
 from mbla.results.listing.text import counted
 from mbla.results.listing.verdict_words import verdict
 from mbla.results.outcome import best_iterate
@@ -107,8 +108,11 @@ def _in_words(results: Results, case: CaseResult, kind: str) -> str:
     """Description for a reader who does not see the picture."""
     model = results.model.of_case(case.load_case)
     if kind == "model":
-        free = len(results.model.free)
-        return f"The model of {counted(len(model.blocks), 'block')}, {free} of them free, with its supports and loads"
+        cells = model.soil_of_block >= 0
+        free = int((~cells[results.model.free]).sum())
+        soils = "".join(f", {words}" for words in counted_soils(model))
+        blocks = counted(int((~cells).sum()), "block")
+        return f"The model of {blocks}, {free} of them free{soils}, with its supports and loads"
     shown = {
         "mechanism": "The structure as it moves",
         "forces": "Resultants at the interfaces and lines of thrust",

@@ -10,6 +10,7 @@ import pytest
 import mbla
 from mbla.results.collapse.collapse import Failure, mechanism_class
 from mbla.results.collapse.interface_modes import InterfaceMode
+from mbla.results.demand.demand import demand_of
 from mbla.results.listing.listing import listing
 from mbla.results.record.scene import Scene, scene_of
 from mbla.results.results import Results
@@ -56,3 +57,10 @@ def test_the_listing_tells_slip_lines(results: Results) -> None:
     assert "2 slip lines in soil; 1 of 1 free block and 1 of 3 cells of soil backfill move in 2 rigid parts" in text
     assert "soil backfill on wall 2/1 (0, 0.5, 0) (0, 0.5, 1) 1 " in text
     assert "a wedge of soil backfill, 1 cell" in text
+
+
+def test_cells_are_no_units_that_crack(results: Results) -> None:
+    case = results.cases[0]
+    assert case.solution.mechanics is not None
+    demand = demand_of(results.assembly, case.load_case, case.solution.mechanics)
+    assert np.isnan(demand.pressure[1:]).all()

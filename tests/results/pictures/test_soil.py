@@ -9,6 +9,7 @@ import pytest
 
 import mbla
 from mbla.results.pictures.drawing import Drawing, drawing_of
+from mbla.results.pictures.marks.forces import drawn_resultants
 from mbla.results.pictures.options import PictureOptions
 from mbla.results.pictures.page import SOIL
 from mbla.results.pictures.plane import drawn_edges, seen_edges
@@ -57,3 +58,11 @@ def test_slip_lines_lie_on_both_sides(results: Results) -> None:
         np.flatnonzero(scene.model.soil_of_block >= 0)
     )
     assert not {"hinge", "sliding", "opening"} & {mark.name for mark in drawing.marks}
+
+
+def test_of_forces_those_on_blocks_and_ground_are_drawn(results: Results) -> None:
+    scene, _ = drawn(results, "forces")
+    cells = np.append(scene.model.soil_of_block >= 0, [False] * len(scene.model.grounds))
+    bodies = scene.contacts.bodies[drawn_resultants(scene)]
+    assert len(bodies)
+    assert not cells[bodies].all(axis=1).any()

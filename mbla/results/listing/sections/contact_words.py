@@ -11,7 +11,9 @@ from mbla.contacts.contacts import ContactReport, Contacts
 from mbla.contacts.glue import solid_sizes
 from mbla.contacts.notices import glue_words
 from mbla.model.model import Model
+from mbla.results.collapse.interface_modes import in_soil
 from mbla.results.listing.blocks import MOST_ROWS, Block, Fact, ListingSection, Paragraph, apart, facts, table_of
+from mbla.results.listing.places import counted_of
 from mbla.results.listing.text import counted, number, small
 
 MOST_NAMED = 5
@@ -35,7 +37,7 @@ def finding_sections(model: Model, report: ContactReport) -> list[ListingSection
     if len(report.isolated):
         blocks.append(Paragraph(f"Blocks without any contact: {_names(model, report.isolated, MOST_ROWS)}."))
     for part in report.unsupported[:MOST_ROWS]:
-        blocks.append(Paragraph(f"Unsupported: {counted(len(part), 'block')}, {_names(model, part, MOST_NAMED)}."))
+        blocks.append(Paragraph(f"Unsupported: {counted_of(model, part)}, {_names(model, part, MOST_NAMED)}."))
     return [ListingSection("Found by the search", blocks)] if blocks else []
 
 
@@ -53,9 +55,11 @@ def _by_joint(model: Model, contacts: Contacts) -> list[Block]:
 def _counts(model: Model, contacts: Contacts) -> list[Fact]:
     """Every count, zero or not: that nothing was missed is a finding too."""
     report, length = contacts.report, model.units.length
-    on_ground = int((contacts.bodies >= len(model.blocks)).any(axis=1).sum())
-    rows = [Fact("interfaces between blocks", str(len(contacts) - on_ground))]
-    rows.append(Fact("interfaces on ground", str(on_ground)))
+    on_ground = (contacts.bodies >= len(model.blocks)).any(axis=1)
+    soil = in_soil(model, contacts)
+    rows = [Fact("interfaces between blocks", str(int((~on_ground & ~soil).sum())))]
+    rows += [Fact("interfaces of cells of soil", str(int((~on_ground & soil).sum())))] if model.soils else []
+    rows.append(Fact("interfaces on ground", str(int(on_ground.sum()))))
     if len(contacts):
         least, most = number(float(contacts.areas.min())), number(float(contacts.areas.max()))
         rows.append(Fact("least, greatest area", f"{least}, {most} {length}2"))

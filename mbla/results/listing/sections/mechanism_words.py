@@ -20,7 +20,7 @@ from mbla.results.collapse.collapse import Collapse, Failure, collapse_of, failu
 from mbla.results.collapse.cracks import Crack, YieldLine
 from mbla.results.collapse.interface_modes import InterfaceMode
 from mbla.results.collapse.joint_planes import HingeLine, SlidingPlane
-from mbla.results.collapse.rigid_parts import PartMotion, moving_blocks, moving_share, reach
+from mbla.results.collapse.rigid_parts import PartMotion, moving_blocks, moving_cells, moving_share, reach
 from mbla.results.collapse.thrust import curvature_sides
 from mbla.results.listing.blocks import MOST_ROWS, Block, apart, table_of
 from mbla.results.listing.places import (
@@ -97,15 +97,12 @@ def _moving(model: Model, collapse: Collapse, failure: Failure) -> str:
     if not parts:
         return "no block moves"
     how = "as one rigid part" if parts == 1 else f"in {parts} rigid parts"
-    verb = ("moves" if moving == 1 else "move") + ("" if failure.explained == 1.0 else " mainly")
-    cells = model.soil_of_block >= 0
-    if not cells[model.free].any():
-        return f"{moving} of {counted(len(model.free), 'free block')} {verb} {how}"
-    moves = ~model.fixed & (collapse.parts > 0)
-    of_soil = f"{int(moves[cells].sum())} of {counted_of(model, np.flatnonzero(cells & ~model.fixed))}"
-    own = np.flatnonzero(~cells & ~model.fixed)
-    blocks = [f"{int(moves[own].sum())} of {counted(len(own), 'free block')}"] if len(own) else []
-    return f"{' and '.join([*blocks, of_soil])} {verb} {how}"
+    cells = model.soil_of_block[model.free] >= 0
+    blocks, soil = model.free[~cells], model.free[cells]
+    found = [f"{moving} of {counted(len(blocks), 'free block')}"] if len(blocks) or not len(soil) else []
+    found += [f"{moving_cells(model, collapse.parts)} of {counted_of(model, soil)}"] if len(soil) else []
+    verb = ("moves" if moving == 1 and not len(soil) else "move") + ("" if failure.explained == 1.0 else " mainly")
+    return f"{' and '.join(found)} {verb} {how}"
 
 
 def failure_sentences(model: Model, load_case: LoadCase, collapse: Collapse, failure: Failure) -> list[str]:

@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from mbla.arrays import IntArray
+from mbla.results.collapse.interface_modes import within_soil
 from mbla.results.collapse.thrust import OUTSIDE
 from mbla.results.listing.text import number
 from mbla.results.pictures.marks.marks import Mark, dots, interface_names, segments
@@ -54,15 +55,19 @@ def force_marks(scene: PictureScene, *, proportional: bool = False) -> list[Mark
         ("outside the joint (tension), drawn at its edge", PURPLE, off > OUTSIDE),
         ("all friction used", SLIDE, use >= USED),
     ):
-        at = np.flatnonzero(chosen & thrust.carried)
+        at = np.flatnonzero(chosen & thrust.carried & ~within_soil(scene.model, scene.contacts))
         found.append(dots(label, colour, scene.thrust_points[at], contacts.bodies[at], [texts[row] for row in at]))
     return [mark for mark in found if len(mark.pairs)]
 
 
 def drawn_resultants(scene: PictureScene) -> IntArray:
-    """Interfaces whose resultants are drawn, (n,), in their order: the largest ones above the least share."""
+    """Interfaces whose resultants are drawn, (n,), in their order: the largest ones above the least share.
+
+    Of soil of cells those on blocks and ground: what it presses on.
+    """
     assert scene.thrust is not None  # asked for where there are forces
     sizes = np.where(scene.thrust.carried, np.linalg.norm(scene.thrust.forces, axis=1), 0.0)
+    sizes[within_soil(scene.model, scene.contacts)] = 0.0
     order = np.argsort(-sizes, kind="stable")[:MOST]
     return np.sort(order[sizes[order] > LEAST * sizes.max(initial=0.0)])
 
@@ -87,6 +92,7 @@ def thrust_line(scene: PictureScene, texts: Sequence[str], name: str, colour: st
     """Lines of thrust along chains of blocks."""
     none = np.zeros((0, 2), dtype=np.int64)
     steps = np.concatenate([none, *(np.column_stack([line[:-1], line[1:]]) for line in scene.lines)])
+    steps = steps[~within_soil(scene.model, scene.contacts)[steps].any(axis=1)]
     used, row = np.unique(steps, return_inverse=True)
     pairs = row.reshape(steps.shape)
     labels = tuple(texts[i] for i in used.tolist())
