@@ -12,6 +12,7 @@ from mbla.questions.figures import significant
 from mbla.questions.travel_position import TravelPosition
 from mbla.results.force_range import ForceRange
 from mbla.results.listing.blocks import GAP, Fact, ListingSection, Paragraph, apart, table_of
+from mbla.results.listing.places import soil_words
 from mbla.results.listing.text import counted, number, vector
 from mbla.results.outcome import answer_bounds, answer_of, associative_of, figure_of, least_of, result_of
 from mbla.results.results import CaseResult
@@ -184,6 +185,13 @@ def _acting(position: TravelPosition) -> str:
     return ", ".join(str(axle + 1) for axle in np.flatnonzero(position.acting).tolist())
 
 
+def _carrier(model: Model, block: int) -> str:
+    if block < 0:
+        return "-"
+    soil = model.soil_of_block[[block]]
+    return model.blocks.name(block) if soil[0] < 0 else soil_words(model, soil)
+
+
 def _row(model: Model, series: Series, case: CaseResult) -> list[str]:
     position = case.load_case.question.place
     mark = "  (worst)" if case is series.worst else ""
@@ -192,7 +200,7 @@ def _row(model: Model, series: Series, case: CaseResult) -> list[str]:
         status_name(case.status),
         number(position.distance),
         vector(position.point),
-        model.blocks.name(int(position.blocks[0])) if position.blocks[0] >= 0 else "-",
+        _carrier(model, int(position.blocks[0])),
         _acting(position),
         "any multiple" if np.isinf(figure_of(case)) else number(figure_of(case)),
     ]

@@ -28,6 +28,7 @@ from mbla.results.listing.sections.forces import (
     group_reaction_blocks,
     lock_blocks,
     reaction_blocks,
+    soil_blocks,
     work_blocks,
 )
 from mbla.results.listing.sections.geometric_safety import geometric_safety_blocks
@@ -106,6 +107,7 @@ def _forces(
         "Reactions": [
             *reaction_blocks(held, contacts, load_case, mechanics),  # a support is one even as it gives way
             *group_reaction_blocks(held, contacts, mechanics),
+            *soil_blocks(model, contacts, mechanics),
             *freedom_blocks(contacts, case, freedom),
         ],
         tie_title(model): tie_force_blocks(model, mechanics) if len(model.ties) else [],

@@ -45,6 +45,14 @@ def soil_words(model: Model, rows: IntArray) -> str:
     return "soil" if len(names) > 1 or names == {"soil"} else f"soil {names.pop()}"
 
 
+def block_words(model: Model, block: int) -> str:
+    """Its name; of a cell of soil where it lies: ``soil road at (1.2, 0.5, 0.8)``."""
+    row = int(model.soil_of_block[block])
+    if row < 0:
+        return model.blocks.name(block)
+    return f"{soil_words(model, np.array([row]))} at {point_words(model, model.blocks.centroids[block])}"
+
+
 def counted_blocks(model: Model) -> str:
     """All blocks and soils: ``41 blocks``, or ``41 blocks, soil road of 320 cells``."""
     return ", ".join([counted(int((model.soil_of_block < 0).sum()), "block"), *counted_soils(model)])

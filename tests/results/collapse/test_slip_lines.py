@@ -10,6 +10,7 @@ import pytest
 import mbla
 from mbla.results.collapse.collapse import Failure, mechanism_class
 from mbla.results.collapse.interface_modes import InterfaceMode
+from mbla.results.collapse.soil_pressure import soil_pressures
 from mbla.results.demand.demand import demand_of
 from mbla.results.listing.listing import listing
 from mbla.results.record.scene import Scene, scene_of
@@ -64,3 +65,13 @@ def test_cells_are_no_units_that_crack(results: Results) -> None:
     assert case.solution.mechanics is not None
     demand = demand_of(results.assembly, case.load_case, case.solution.mechanics)
     assert np.isnan(demand.pressure[1:]).all()
+
+
+def test_the_listing_tells_what_soil_presses_with(results: Results) -> None:
+    case = results.cases[0]
+    assert case.solution.mechanics is not None
+    (pressure,) = soil_pressures(results.model, results.contacts, case.solution.mechanics.contact_forces)
+    assert (pressure.soil, pressure.group) == (0, "wall")
+    assert pressure.force[0] == pytest.approx(-2.1786328, rel=1e-6)  # of Rankine, on a wall that gives way to the left
+    assert pressure.point[0] == pytest.approx(0, abs=1e-9)
+    assert "backfill on wall -2.1786 0 0 (0, 0.5, " in " ".join(listing(results).split())

@@ -13,7 +13,7 @@ from mbla.contacts.notices import glue_words
 from mbla.model.model import Model
 from mbla.results.collapse.interface_modes import in_soil
 from mbla.results.listing.blocks import MOST_ROWS, Block, Fact, ListingSection, Paragraph, apart, facts, table_of
-from mbla.results.listing.places import counted_of
+from mbla.results.listing.places import block_words, counted_of
 from mbla.results.listing.text import counted, number, small
 
 MOST_NAMED = 5
@@ -104,4 +104,4 @@ def _pair_row(model: Model, pair: IntArray, relative: float | None) -> list[str]
 def _names(model: Model, blocks: Iterable[int] | IntArray, most: int) -> str:
     chosen = [int(block) for block in blocks]
     more = f" and {len(chosen) - most} more" if len(chosen) > most else ""
-    return ", ".join(model.blocks.name(block) for block in chosen[:most]) + more
+    return ", ".join(block_words(model, block) for block in chosen[:most]) + more

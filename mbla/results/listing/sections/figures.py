@@ -13,6 +13,7 @@ from mbla.results.listing.answers import (
     status_name,
 )
 from mbla.results.listing.blocks import MOST_ROWS, Block, Fact, Paragraph, facts, table_of
+from mbla.results.listing.places import block_words
 from mbla.results.listing.text import counted, number, small
 from mbla.results.listing.verdict_words import load_factor_words
 from mbla.results.outcome import (
@@ -106,7 +107,7 @@ def _standing(model: Model, case: CaseResult) -> list[Fact]:
     standing = case.solution.standing
     if standing is None:
         return []
-    block = "" if standing.block is None else f": {model.blocks.name(standing.block)} would fall first"
+    block = "" if standing.block is None else f": {block_words(model, standing.block)} would fall first"
     locked = locked_in(case) and case.solution.mechanics is not None
     warning = "WARNING: the load factor presumes a self-stressed state; it is no collapse load" * locked
     notes = (standing.reason, warning)

@@ -14,9 +14,10 @@ from mbla.results.collapse.mechanics import (
     load_on_structure,
     reactions_of,
 )
+from mbla.results.collapse.soil_pressure import soil_pressures
 from mbla.results.collapse.thrust import thrust_of
 from mbla.results.listing.blocks import MOST_ROWS, Block, Paragraph, apart, table_of
-from mbla.results.listing.places import counted_of
+from mbla.results.listing.places import counted_of, point_words, soil_words
 from mbla.results.listing.text import counted, number, vector
 from mbla.results.outcome import result_of
 from mbla.results.results import CaseResult
@@ -48,6 +49,25 @@ def group_reaction_blocks(model: Model, contacts: Contacts, mechanics: Mechanics
     head = ["supports carry", *(f"F{axis} [{model.units.force}]" for axis in "xyz")]
     rows = [[reaction.support, *_components(reaction.wrench, size)[:3]] for reaction in shown]
     return apart(table_of(head, rows, total=len(groups)))
+
+
+def soil_blocks(model: Model, contacts: Contacts, mechanics: Mechanics) -> list[Block]:
+    """What soil of cells presses with on groups of blocks, and where; nothing without such soil."""
+    found = soil_pressures(model, contacts, mechanics.contact_forces)
+    if not found:
+        return []
+    size = np.full(6, max(float(np.abs(each.force).max()) for each in found) or 1.0)
+    force, length = model.units.force, model.units.length
+    rows = [
+        [
+            f"{soil_words(model, np.array([each.soil]))} on {each.group}",
+            *_components(np.append(each.force, np.zeros(3)), size)[:3],
+            "-" if np.isnan(each.point).any() else point_words(model, each.point),
+        ]
+        for each in found[:MOST_ROWS]
+    ]
+    head = ["soil presses", *(f"F{axis} [{force}]" for axis in "xyz"), f"centre of pressure at [{length}]"]
+    return apart(table_of(head, rows, total=len(found)))
 
 
 def _components(wrench: FloatArray, load: FloatArray) -> list[str]:
