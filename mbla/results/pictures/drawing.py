@@ -40,7 +40,7 @@ from mbla.results.pictures.page import (
 )
 from mbla.results.pictures.plane import DASHES, HATCH, PALE, Flat, draw_flat, flat_of
 from mbla.results.pictures.renderer import image_of
-from mbla.results.pictures.scene import PictureScene, named_groups, part_colours
+from mbla.results.pictures.scene import PictureScene, bounding_edges, named_groups, part_colours
 
 MARGIN = 0.03
 """of the page around the structure, share of the width"""
@@ -171,7 +171,7 @@ def _draw_image(
 def ghost_edges(scene: PictureScene) -> IntArray:
     """Edges of the blocks that are seen to have moved, (n, 2) vertices."""
     blocks = scene.model.blocks
-    return edges_of_blocks(blocks, block_edges(blocks), scene.displaced)
+    return edges_of_blocks(blocks, bounding_edges(scene, block_edges(blocks)), scene.displaced)
 
 
 def _handles(page: Page, drawing: Drawing) -> list[Any]:

@@ -18,9 +18,9 @@ from mbla.model.model import Model
 from mbla.model.solids.blocks import Blocks
 from mbla.results.pictures.camera import Camera, axes_of
 from mbla.results.pictures.geometry import block_edges
-from mbla.results.pictures.marks.marks import Mark, moved, outer_rows
+from mbla.results.pictures.marks.marks import Mark, moved
 from mbla.results.pictures.page import GHOST, GROUND, INK, SLAB, Page
-from mbla.results.pictures.scene import PictureScene
+from mbla.results.pictures.scene import PictureScene, bounding_edges
 
 if TYPE_CHECKING:
     from mbla.results.pictures.drawing import Drawing
@@ -146,18 +146,6 @@ def seen_edges(blocks: Blocks, flat: Flat) -> IntArray:
     return edges[front[edges].all(axis=1)]
 
 
-def drawn_edges(scene: PictureScene, flat: Flat) -> IntArray:
-    """Edges of blocks that are seen; of cells of soil those that bound it, or a part of it that moves."""
-    blocks = scene.model.blocks
-    edges = seen_edges(blocks, flat)
-    owners = blocks.block_of_vertex[edges[:, 0]]
-    soil, parts = scene.model.soil_of_block[owners], scene.clusters[owners] * bool(scene.motion.any())
-    drawn, cells = soil < 0, np.flatnonzero(soil >= 0)
-    within = np.column_stack([soil[cells], parts[cells]])
-    drawn[cells] = outer_rows(blocks.vertices[edges[cells]], scene.size, within)
-    return np.asarray(edges[drawn])
-
-
 # --- The drawing ----------------------------------------------------------------------------------------------------
 
 
@@ -176,7 +164,7 @@ def draw_flat(page: Page, axes: Any, camera: Camera, scene: PictureScene, drawin
     cells = face_polygons(blocks, replace(flat, faces=flat.faces[of_soil]), now)
     look = {"edgecolors": "face", "linewidths": SEAM * page.scale, "zorder": 1}  # no paper between cells
     _areas(page, axes, cells, facecolors=[colours[row] for row in np.flatnonzero(of_soil).tolist()], **look)
-    edges = drawn_edges(scene, flat)
+    edges = bounding_edges(scene, seen_edges(blocks, flat))
     _lines(page, axes, now[edges], 1.0 if len(blocks) < MANY else 0.6, INK, zorder=2)
     moves = scene.displaced[blocks.block_of_vertex[edges[:, 0]]]
     dashes = {"linestyles": [DASHES], "alpha": 0.8, "zorder": 2.5}

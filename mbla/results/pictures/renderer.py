@@ -22,7 +22,7 @@ from mbla.results.pictures.camera import Camera
 from mbla.results.pictures.geometry import Slab, block_edges
 from mbla.results.pictures.marks.marks import Mark
 from mbla.results.pictures.page import GHOST, INK, SLAB, rgb
-from mbla.results.pictures.scene import PictureScene
+from mbla.results.pictures.scene import PictureScene, bounding_edges
 
 FINER, FINE = 2, 4_000_000
 """rendered pixels over those of the image, in each direction: smooths edges the same way on every machine; and pixels
@@ -145,7 +145,10 @@ def _structure(
     lit = {"ambient": 0.42, "diffuse": 0.85, "specular": 0.0}
     actors = [plotter.add_mesh(mesh, scalars="colour", rgb=True, **lit)]
     width = max(1.0, (1.5 if len(blocks) < MANY else 1.0) * thin)
-    for points, edges, colour in ((scene.moved, block_edges(blocks), INK), (blocks.vertices, ghost, GHOST)):
+    for points, edges, colour in (
+        (scene.moved, bounding_edges(scene, block_edges(blocks)), INK),
+        (blocks.vertices, ghost, GHOST),
+    ):
         if len(edges):
             lines = vista.PolyData(points, lines=_rows(2 * np.arange(len(edges) + 1), edges))
             actors.append(plotter.add_mesh(lines, color=colour, line_width=width, lighting=False))

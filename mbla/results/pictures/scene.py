@@ -21,6 +21,7 @@ from mbla.results.listing.text import counted, number
 from mbla.results.listing.verdict_words import verdict
 from mbla.results.outcome import result_of
 from mbla.results.pictures.geometry import Slab, ground_slabs
+from mbla.results.pictures.marks.marks import outer_rows
 from mbla.results.pictures.options import PictureOptions
 from mbla.results.pictures.page import FIXED_BLOCK, REST, SLOW
 from mbla.results.record.scene import Scene
@@ -201,6 +202,18 @@ class PictureScene(Scene):
         if status is Status.APPROXIMATE and self.is_result:
             return "APPROXIMATE: residuals are larger than for a solved case"
         return "NOT VERIFIED: no result" if self.mechanics is None else "NOT VERIFIED: no result, the best iterate"
+
+
+def bounding_edges(scene: PictureScene, edges: IntArray) -> IntArray:
+    """Of edges, (n, 2) vertices, all of blocks, and of cells of soil those that bound it or a part of it that moves."""
+    blocks = scene.model.blocks
+    owners = blocks.block_of_vertex[edges[:, 0]]
+    soil, parts = scene.model.soil_of_block[owners], scene.clusters[owners] * bool(scene.motion.any())
+    drawn, cells = soil < 0, np.flatnonzero(soil >= 0)
+    if len(cells):
+        within = np.column_stack([soil[cells], parts[cells]])
+        drawn[cells] = outer_rows(blocks.vertices[edges[cells]], scene.size, within)
+    return np.asarray(edges[drawn])
 
 
 def scene_of(results: Results, case: CaseResult, options: PictureOptions, kind: str) -> PictureScene:

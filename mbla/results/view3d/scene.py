@@ -30,7 +30,7 @@ from mbla.results.pictures.marks.marks import Mark, moved
 from mbla.results.pictures.marks.ties import tie_marks
 from mbla.results.pictures.options import PictureOptions
 from mbla.results.pictures.page import FIXED_BLOCK, GROUPS, LIVE_LOAD, REST, SLOW, group_colours, rgb
-from mbla.results.pictures.scene import PictureScene
+from mbla.results.pictures.scene import PictureScene, bounding_edges
 from mbla.results.pictures.scene import scene_of as picture_of
 from mbla.results.results import CaseResult, Results
 
@@ -76,7 +76,7 @@ def scene_of(results: Results, case: CaseResult, view: tuple[float, float] | Non
         "vertexStart": packed(blocks.vertex_start),
         "triangles": packed(triangles),
         "blockOfTriangle": packed(owners),
-        "edges": packed(block_edges(blocks)),
+        "edges": packed(bounding_edges(scene, block_edges(blocks))),
         "ghost": packed(ghost_edges(scene)),
         "partOfBlock": packed(parts),
         "motion": packed(frames) if moves else None,
