@@ -40,7 +40,7 @@ def figures(model: Model, case: CaseResult) -> list[Fact]:
     rows += (answer_facts(model, case) if question.entries_first else []) + _factors(model, case) + _bounds(case)
     rows += _standing(model, case)
     if case.solution.size is not None:
-        rows.append(Fact("solved as", size_words(case.solution.size)))
+        rows.append(Fact("solved as", size_words(case.solution.size, cells=bool(model.soils))))
     return [*rows, *solver_facts(case.solution), _verification(case)]
 
 
@@ -114,11 +114,12 @@ def _standing(model: Model, case: CaseResult) -> list[Fact]:
     return [Fact("stands under dead load", f"{standing.verdict.value}{block}", tuple(filter(None, notes)))]
 
 
-def size_words(size: ModelSize) -> str:
-    """What reached the solver."""
+def size_words(size: ModelSize, *, cells: bool = False) -> str:
+    """What reached the solver; cells of soil are counted with the blocks where there are any."""
     words = ["planar" if size.dimension == 2 else "spatial"]
     dropped = f" ({size.dropped_points} more left out)" if size.dropped_points else ""
-    words += [counted(size.free_blocks, "free block"), counted(size.contact_points, "contact point") + dropped]
+    bodies = f"{size.free_blocks} free blocks and cells" if cells else counted(size.free_blocks, "free block")
+    words += [bodies, counted(size.contact_points, "contact point") + dropped]
     if size.mirror_planes:
         words.append(f"{counted(size.mirror_planes, 'mirror plane')} used")
     if size.parts > 1:

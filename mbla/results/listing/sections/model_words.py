@@ -31,13 +31,14 @@ def check_listing(results: Results, needs: Mapping[str, CaseNeeds]) -> str:
         contact_section(results.model, results.contacts),
         *finding_sections(results.model, results.contacts.report),
         *notice_sections(results.notices),
-        *(_needs(case, own) for case, own in needs.items()),
+        *(_needs(results.model, case, own) for case, own in needs.items()),
     ]
     return text_of([*header_lines(results), *section_lines(sections), *sentence("Nothing was solved.")])
 
 
-def _needs(case: str, needs: CaseNeeds) -> ListingSection:
-    counts = (Fact(name.replace("_", " "), str(count)) for name, count in needs.counts.items())
+def _needs(model: Model, case: str, needs: CaseNeeds) -> ListingSection:
+    names = {"free_blocks": "free blocks and cells"} if model.soils else {}
+    counts = (Fact(names.get(name, name.replace("_", " ")), str(count)) for name, count in needs.counts.items())
     blocks = [*facts(counts), *apart(facts(reduction_facts(needs.reductions)))]
     return ListingSection(f"Needed for load case {case}", blocks)
 
