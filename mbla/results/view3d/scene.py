@@ -19,6 +19,7 @@ from mbla.deck.sections.selectors import POSITIONS
 from mbla.model.model import Model
 from mbla.model.solids.plane import plane_axes
 from mbla.results.collapse.motion import largest_displacements, rigid_frames
+from mbla.results.listing.places import soil_words
 from mbla.results.listing.text import number
 from mbla.results.pictures.camera import axes_of, view_of_case
 from mbla.results.pictures.drawing import ghost_edges
@@ -117,7 +118,7 @@ def _with_mark(scene: PictureScene, words: str) -> str:
 
 
 def block_texts(model: Model, parts: IntArray | None) -> list[str]:
-    """What the browser shows for each block: name, position, weight, part; as HTML.
+    """What the browser shows for each block: name, position, weight, part; of a cell of soil which soil; as HTML.
 
     parts : (n_blocks,) part of each block, 0 at rest; None without a motion
     """
@@ -125,12 +126,14 @@ def block_texts(model: Model, parts: IntArray | None) -> list[str]:
     weights = model.weights.tolist()
     known = [name for name in POSITIONS if (blocks.labels.position(name) >= 0).any()]
     columns = [blocks.labels.position(name).tolist() for name in known]
-    texts = []
+    texts, soil = [], model.soil_of_block
     for block in range(len(blocks)):
         places = [f"{name} {column[block]}" for name, column in zip(known, columns, strict=True) if column[block] >= 0]
         member = blocks.labels.members[block]
         lines = [escape(blocks.name(block)), ", ".join([escape(member)] * bool(member) + places)]
         lines.append(f"weight {number(weights[block])} {units.force}")
+        if soil[block] >= 0:
+            lines = [escape(soil_words(model, soil[[block]]))]
         if model.fixed[block]:
             lines.append("fixed")
         elif parts is not None:

@@ -15,6 +15,7 @@ from mbla.results.pictures.page import SOIL
 from mbla.results.pictures.plane import seen_edges
 from mbla.results.pictures.scene import PictureScene, bounding_edges, scene_of
 from mbla.results.results import Results
+from mbla.results.view3d.scene import block_texts
 
 DECK = Path(__file__).parents[3] / "decks" / "benchmarks" / "closed_forms" / "active_earth_pressure.yaml"
 
@@ -68,3 +69,10 @@ def test_of_forces_those_on_blocks_and_ground_are_drawn(results: Results) -> Non
     bodies = scene.contacts.bodies[drawn_resultants(scene)]
     assert len(bodies)
     assert not cells[bodies].all(axis=1).any()
+
+
+def test_the_browser_names_the_soil(results: Results) -> None:
+    scene, _ = drawn(results, "mechanism")
+    texts = block_texts(scene.model, scene.clusters)
+    assert texts[0].startswith("wall[0]<br>")
+    assert sorted(texts[1:]) == ["soil backfill<br>at rest", "soil backfill<br>at rest", "soil backfill<br>part 2"]
