@@ -41,6 +41,7 @@ DECKS = {
     "ferris_wall_1_slope": "load path",
     "thrust_of_an_arch": "objective",
     "assessed_facade": "assessment, pushover",
+    "active_earth_pressure": "soil of cells",
 }
 WEAK = "beam_under_travelling_load"
 """whose units may crack"""
