@@ -16,7 +16,7 @@ from mbla.model import build_model
 from mbla.model.model import LoadCase, select_cases
 from mbla.process.run_options import RunOptions as RunOptions
 from mbla.process.stopwatch import Stopwatch, timing
-from mbla.results.collapse.ties import brittle_remarks
+from mbla.results.collapse.state_remarks import OF_STATE, state_remarks
 from mbla.results.files import OutputFolder
 from mbla.results.partial import Partial
 from mbla.results.provenance import as_expected, results_before, with_case
@@ -130,6 +130,11 @@ def solved_case_by_case(
     load_cases = select_cases(model, options.cases)
     read = time.perf_counter()
     assembly = build_assembly(deck, model, contacts)
+    if model.soils:
+        from mbla.soil_mesh.moved_soil import with_moved_soil  # late: few decks have cells
+
+        assembly = with_moved_soil(deck, assembly, load_cases)
+        load_cases = select_cases(assembly.model, options.cases)
     found = time.perf_counter()
     settings = solver_settings(deck.analysis)
     with timing() as stopwatch:
@@ -219,7 +224,7 @@ def push_position(
 ) -> CaseResult:
     """A position of a travelling load that was solved, with its pushover; ``tell`` as in ``solve_case``."""
     log = _log_of(case.load_case, status_file, progress)
-    remarks = tuple(remark for remark in case.solution.remarks if remark.identifier != "brittle-ties")
+    remarks = tuple(remark for remark in case.solution.remarks if remark.identifier not in OF_STATE)
     case = replace(case, solution=replace(case.solution, remarks=remarks))
     return _finished(assembly, _pushed(deck, assembly, case, settings, log, tell))
 
@@ -259,7 +264,7 @@ def _pushed(
 
 def _finished(assembly: Assembly, case: CaseResult) -> CaseResult:
     """A load case with the remarks that are made last, and what a code says of it."""
-    remarks = (*case.solution.remarks, *brittle_remarks(assembly.model.of_case(case.load_case), case.solution))
+    remarks = (*case.solution.remarks, *state_remarks(assembly.model, case.load_case, case.solution))
     case = replace(case, solution=replace(case.solution, remarks=remarks))
     if case.load_case.assessment is None:
         return case

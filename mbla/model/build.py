@@ -12,7 +12,7 @@ from types import MappingProxyType
 
 import numpy as np
 
-from mbla.arrays import BoolArray, FloatArray
+from mbla.arrays import BoolArray
 from mbla.deck.deck import Deck
 from mbla.deck.sections.load_cases import LoadCaseSection
 from mbla.deck.sections.loads import AddedMass
@@ -33,6 +33,7 @@ from mbla.model.outside import outside
 from mbla.model.selectors import BlockSelection, check_overrides, select_blocks
 from mbla.model.settlement import build_settlement
 from mbla.model.soil.build import Soils, build_soils
+from mbla.model.soil.soil_mesh import SoilCorners
 from mbla.model.solids.blocks import PointMasses, joined_masses
 from mbla.model.solids.build import BuiltBlocks, build_blocks
 from mbla.model.solids.defects import far_away
@@ -44,10 +45,10 @@ from mbla.model.ties.ties import Ties, joined_ties
 from mbla.model.wording import named, vector
 
 
-def build_model(deck: Deck, soil: Mapping[str, FloatArray] = MappingProxyType({})) -> Model:
+def build_model(deck: Deck, soil: Mapping[str, SoilCorners] = MappingProxyType({})) -> Model:
     """The model that a checked deck describes.
 
-    soil : by name of a soil of cells, other places (n, 2) of the points of its mesh
+    soil : by name of a soil of cells, corners of these in the place of those that are made for their size
 
     Raises DeckError with every fault found: items that cannot be built, blocks that are no blocks, selectors without
     blocks, supports and loads that do nothing.
@@ -136,7 +137,7 @@ class BuiltStructure:
     first_notices: tuple[Notice, ...]
 
 
-def structure_of(deck: Deck, soil: Mapping[str, FloatArray] = MappingProxyType({})) -> BuiltStructure:
+def structure_of(deck: Deck, soil: Mapping[str, SoilCorners] = MappingProxyType({})) -> BuiltStructure:
     """What the deck describes besides loads and joint laws; ``soil`` as of ``build_model``."""
     faults: list[Fault] = []
     items = collect_items(deck, faults)

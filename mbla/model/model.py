@@ -13,6 +13,7 @@ from mbla.deck.units import Units
 from mbla.errors import Notice, UsageError
 from mbla.model.applied_load import AppliedLoad
 from mbla.model.fill.fill import CarriedFill
+from mbla.model.soil.soil_figure import SoilFigure
 from mbla.model.soil.soil_mesh import SoilMesh
 from mbla.model.solids.blocks import Blocks
 from mbla.model.solids.facets import NO_BENT_FACES, BentFaces
@@ -94,6 +95,7 @@ class LoadCase:
     pushover : the pushover that follows limit analysis, None for none; before the positions of a travelling load are
                solved, all positions that may be pushed have it, afterwards the one that is pushed
     assessment : the question to a code, None for none
+    soil : its load factors on meshes of soil that were moved; none without soil of cells, or without a planar scene
     """
 
     name: str
@@ -104,6 +106,7 @@ class LoadCase:
     question: Question = LOAD_FACTOR
     pushover: Pushing | None = None
     assessment: AssessmentSection | None = None
+    soil: tuple[SoilFigure, ...] = ()
 
     @property
     def dead_words(self) -> tuple[str, ...]:

@@ -56,6 +56,8 @@ REMARKS_THAT_WARN = frozenset(
         "pushover-rough",
         "geometric-safety-not-done",
         "sensitivity-not-done",
+        "soil-mesh-of-others",
+        "soil-mesh-scatters",
         "tilt-between-not-proved",
     }
 )
@@ -72,6 +74,9 @@ FOUND_AGAIN = frozenset(
         "pushover-not-done",
         "pushover-rough",
         "sensitivity-not-done",
+        "soil-mesh",
+        "soil-mesh-of-others",
+        "soil-mesh-scatters",
         "tilt-between-not-proved",
     }
 )

@@ -6,9 +6,13 @@ shrinks by more than a share a of its area A,
 .. math:: s + (∂s/∂x) δ, \quad j + (∂j/∂x) δ, \quad |δ| ≤ r, \quad −(∂A/∂x) δ ≤ a A,
 
 and costs and powers grow by their derivatives times δ (Hambleton and Sloan 2013, doi:10.1016/j.compgeo.2012.07.012).
+Several scenes of one mesh share δ; what is minimised is the sum of their load factors, each over its size now.
 """
 
 from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 import scipy.sparse as sp
@@ -18,39 +22,68 @@ from mbla.soil_mesh.derivatives import area_derivatives, derivatives_at
 from mbla.soil_mesh.planar_program import Mechanism, planar_program, solve_linear
 from mbla.soil_mesh.planar_scene import PlanarScene, areas_of
 
+LEAST = 1e-3
+"""share of the greatest load factor as which smaller ones count among several"""
+
 
 def corner_step(
-    scene: PlanarScene,
+    scenes: Sequence[PlanarScene],
     points: FloatArray,
-    mechanism: Mechanism,
+    mechanisms: Sequence[Mechanism],
     ways: sp.csr_array,
     bound: FloatArray,
     spare: FloatArray,
 ) -> FloatArray | None:
     """Displacements of the points, (n_points, 2); None where the solver finds none.
 
+    scenes : of one mesh
     ways  : (2 n_points, n_ways) displacements that unknowns stand for
     bound : (n_ways,) greatest size of each unknown
     spare : (n_cells,) share of its area by which each may shrink
     """
-    program, slopes = planar_program(scene, points), derivatives_at(scene, points, mechanism)
     ways = sp.csr_array(ways @ sp.diags_array(bound))  # unknowns from −1 to 1
-    slips, openings = slopes.slips @ ways, slopes.openings @ ways
-    n, n_x = ways.shape[1], len(program.cost)
-    none = sp.csr_array((len(program.crushing), n))
-    areas = sp.diags_array(1.0 / areas_of(scene.triangles, points)) @ area_derivatives(scene.triangles, points)
-    by_point = sp.vstack([slips[program.slipping], -slips[program.slipping], -openings, none])
+    triangles, n = scenes[0].triangles, ways.shape[1]
+    if not n:
+        return None
+    areas = sp.diags_array(1.0 / areas_of(triangles, points)) @ area_derivatives(triangles, points)
     eye = sp.eye_array(n)
-    blocks: list[list[sp.sparray | None]] = [
-        [program.rows, by_point],
-        [None, eye],
-        [None, -eye],
-        [None, -areas @ ways],
-    ]
+    parts = [_linearised(*each, points, ways) for each in zip(scenes, mechanisms, strict=True)]
+    by_step = sp.vstack([part.by_step for part in parts] + [eye, -eye, -areas @ ways])
+    own = sp.block_diag([part.rows for part in parts])
+    own = sp.vstack([own, sp.csr_array((by_step.shape[0] - own.shape[0], own.shape[1]))])
+    live = sp.hstack([
+        sp.block_diag([sp.csr_array(part.live[None, :]) for part in parts]),
+        sp.csr_array(np.stack([part.live_by_step for part in parts])),
+    ])  # fmt: skip
+    sizes = np.abs([each.load_factor for each in mechanisms])
+    weights = sizes.max() / np.maximum(sizes, LEAST * sizes.max())
+    cost = [weight * part.cost for weight, part in zip(weights, parts, strict=True)]
+    cost_by_step = sum(weight * part.cost_by_step for weight, part in zip(weights, parts, strict=True))
     solved = solve_linear(
-        np.concatenate([program.cost, ways.T @ slopes.cost]),
-        np.concatenate([program.live, ways.T @ slopes.live_power]),
-        sp.csr_array(sp.block_array(blocks)),
-        np.concatenate([np.zeros(program.rows.shape[0]), np.ones(2 * n), spare]),
+        np.concatenate([*cost, cost_by_step]),
+        sp.csr_array(live),
+        sp.csr_array(sp.hstack([own, by_step])),
+        np.concatenate([np.zeros(by_step.shape[0] - 2 * n - len(spare)), np.ones(2 * n), spare]),
     )
-    return None if solved is None else (ways @ solved[0][n_x:]).reshape(-1, 2)
+    return None if solved is None else (ways @ solved[0][-n:]).reshape(-1, 2)
+
+
+@dataclass(frozen=True)
+class _Linearised:
+    """The program of a scene, and what of it grows with the step, (…, n_ways)."""
+
+    cost: FloatArray
+    live: FloatArray
+    rows: sp.csr_array
+    cost_by_step: FloatArray
+    live_by_step: FloatArray
+    by_step: sp.csr_array
+
+
+def _linearised(scene: PlanarScene, mechanism: Mechanism, points: FloatArray, ways: sp.csr_array) -> _Linearised:
+    program, slopes = planar_program(scene, points), derivatives_at(scene, points, mechanism)
+    slips, openings = slopes.slips @ ways, slopes.openings @ ways
+    none = sp.csr_array((len(program.crushing), ways.shape[1]))
+    by_step = sp.vstack([slips[program.slipping], -slips[program.slipping], -openings, none])
+    cost, live = ways.T @ slopes.cost, ways.T @ slopes.live_power
+    return _Linearised(program.cost, program.live, program.rows, cost, live, sp.csr_array(by_step))

@@ -1,8 +1,9 @@
-"""Corners of cells are moved as long as that makes the load factor smaller.
+"""Corners of cells are moved as long as that makes load factors smaller.
 
 A step is that of :mod:`~mbla.soil_mesh.corner_step`, of a share of the size of the cells at each point in the first
-mesh. It is kept where the program at the moved points has a smaller load factor; then the share grows, otherwise it
-shrinks.
+mesh. It is kept where the program at the moved points has a smaller load factor, of several scenes of one mesh their
+sum, each over its size now; then the share grows, otherwise it shrinks. Where dead loads alone have no equilibrium any
+more, moving ends.
 
 Friction makes soil dilate as it slips, and a mesh may lock: no mechanism there is dilates along its edges. Then corners
 are moved at the greatest share of the friction at which the first mesh does not lock, and at growing shares from there.
@@ -10,13 +11,14 @@ are moved at the greatest share of the friction at which the first mesh does not
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 import scipy.sparse as sp
 
 from mbla.arrays import FloatArray
-from mbla.soil_mesh.corner_step import corner_step
+from mbla.soil_mesh.corner_step import LEAST, corner_step
 from mbla.soil_mesh.planar_program import Mechanism, find_mechanism, with_unit_live_load
 from mbla.soil_mesh.planar_scene import PlanarScene, areas_of
 
@@ -57,20 +59,21 @@ class MovedMesh:
     """What moving corners came to.
 
     points       : (n_points, 2)
-    mechanism    : on these; None where nothing can move, or dead loads alone have no equilibrium
-    load_factors : of the meshes kept, in order, that of the first first; at first with less friction where that locked
+    mechanisms   : on these, of each scene; empty where in one of them nothing can move
+    load_factors : (n_kept, n_scenes) of the meshes kept, in order, that of the first first; at first with less friction
+                   where that locked
     steps        : tried
     """
 
     points: FloatArray
-    mechanism: Mechanism | None
-    load_factors: tuple[float, ...]
+    mechanisms: tuple[Mechanism, ...]
+    load_factors: FloatArray
     steps: int
 
     @property
     def load_factor(self) -> float:
-        """Upper one on the moved points, inf without a mechanism."""
-        return np.inf if self.mechanism is None else self.mechanism.load_factor
+        """Least one on the moved points; inf without mechanisms, -inf where dead loads alone have no equilibrium."""
+        return min((each.load_factor for each in self.mechanisms), default=np.inf)
 
 
 @dataclass
@@ -86,38 +89,53 @@ class _Walk:
     motions: sp.csr_array
     reach: FloatArray
     thinnest: FloatArray
-    told: list[float]
+    told: list[FloatArray]
     steps: int = 0
 
 
 def move_corners(
-    scene: PlanarScene, points: FloatArray, motions: sp.csr_array, settings: MovingSettings | None = None
+    scenes: Sequence[PlanarScene], points: FloatArray, motions: sp.csr_array, settings: MovingSettings | None = None
 ) -> MovedMesh:
-    """Points moved, from (n_points, 2), by what their motions allow, (2 n_points, n_unknowns)."""
+    """Points moved from (n_points, 2) by what their motions allow, (2 n_points, n_unknowns), for scenes of one mesh."""
     settings = MovingSettings() if settings is None else settings
-    scene, unit = with_unit_live_load(scene, points)
-    walk = _start(scene, points, motions, settings)
-    for ease in reversed(_eases(scene, points, settings.eases)):
-        _move(_with_friction(scene, ease), walk, settings, settings.eased_steps)
-    mechanism = _move(scene, walk, settings, settings.steps)
-    if mechanism is not None:
-        mechanism = Mechanism(*(each / unit for each in vars(mechanism).values()))
-    return MovedMesh(walk.points, mechanism, tuple(each / unit for each in walk.told), walk.steps)
+    with_units = [with_unit_live_load(scene, points) for scene in scenes]
+    scenes, units = [scene for scene, _ in with_units], np.array([unit for _, unit in with_units])
+    walk = _start(scenes[0], points, motions, settings)
+    for ease in reversed(_eases(scenes, points, settings.eases)):
+        _move(_with_friction(scenes, ease), walk, settings, settings.eased_steps)
+    found = _move(scenes, walk, settings, settings.steps)
+    mechanisms = tuple(
+        Mechanism(*(each / unit for each in vars(mechanism).values()))
+        for mechanism, unit in zip(found or (), units, strict=bool(found))
+    )
+    told = np.array(walk.told).reshape(-1, len(scenes)) / units
+    return MovedMesh(walk.points, mechanisms, told, walk.steps)
 
 
-def _eases(scene: PlanarScene, points: FloatArray, eases: tuple[float, ...]) -> tuple[float, ...]:
+def find_mechanisms(scenes: Sequence[PlanarScene], points: FloatArray) -> tuple[Mechanism, ...] | None:
+    """Of each scene; None where in one of them nothing can move."""
+    found = []
+    for scene in scenes:
+        mechanism = find_mechanism(scene, points)
+        if mechanism is None:
+            return None
+        found.append(mechanism)
+    return tuple(found)
+
+
+def _eases(scenes: Sequence[PlanarScene], points: FloatArray, eases: tuple[float, ...]) -> tuple[float, ...]:
     """Shares of the friction down to the greatest at which something can move; none where it can at full friction."""
-    if find_mechanism(scene, points) is not None:
+    if find_mechanisms(scenes, points) is not None:
         return ()
     for number, ease in enumerate(eases, start=1):
-        if find_mechanism(_with_friction(scene, ease), points) is not None:
+        if find_mechanisms(_with_friction(scenes, ease), points) is not None:
             return eases[:number]
     return ()
 
 
-def _with_friction(scene: PlanarScene, ease: float) -> PlanarScene:
-    """The scene with a share of its friction."""
-    return replace(scene, friction=ease * scene.friction)
+def _with_friction(scenes: Sequence[PlanarScene], ease: float) -> list[PlanarScene]:
+    """The scenes with a share of their friction."""
+    return [replace(scene, friction=ease * scene.friction) for scene in scenes]
 
 
 def _start(scene: PlanarScene, points: FloatArray, motions: sp.csr_array, settings: MovingSettings) -> _Walk:
@@ -130,43 +148,61 @@ def _start(scene: PlanarScene, points: FloatArray, motions: sp.csr_array, settin
     return _Walk(points, motions, reach, settings.thinnest * areas, [])
 
 
-def _move(scene: PlanarScene, walk: _Walk, settings: MovingSettings, steps: int) -> Mechanism | None:
-    """Move the points of a walk until nothing is gained any more, or by so many steps; the mechanism at its end."""
-    mechanism = find_mechanism(scene, walk.points)
-    if mechanism is None:
+def _move(
+    scenes: Sequence[PlanarScene], walk: _Walk, settings: MovingSettings, steps: int
+) -> tuple[Mechanism, ...] | None:
+    """Move the points of a walk until nothing is gained any more, or by so many steps; the mechanisms at its end."""
+    mechanisms = find_mechanisms(scenes, walk.points)
+    if mechanisms is None:
         return None
-    walk.told.append(mechanism.load_factor)
+    walk.told.append(load_factors_of(mechanisms))
     share, gains = settings.share, [np.inf, np.inf]
     for _ in range(steps):
+        if np.isneginf(walk.told[-1]).any():
+            break
         walk.steps += 1
-        found = _step(scene, walk, mechanism, share, settings)
+        found = _step(scenes, walk, mechanisms, share, settings)
         if found is None:
             share *= settings.shrinks
             if share < settings.least:
                 break
             continue
-        walk.points, better = found
-        gains.append((mechanism.load_factor - better.load_factor) / abs(mechanism.load_factor))
-        mechanism, share = better, min(settings.grows * share, settings.most)
-        walk.told.append(mechanism.load_factor)
+        walk.points, better, gain = found
+        gains.append(gain)
+        mechanisms, share = better, min(settings.grows * share, settings.most)
+        walk.told.append(load_factors_of(mechanisms))
         if sum(gains[-2:]) < settings.enough:
             break
-    return mechanism
+    return mechanisms
+
+
+def load_factors_of(mechanisms: Sequence[Mechanism]) -> FloatArray:
+    """(n_scenes,)."""
+    return np.array([mechanism.load_factor for mechanism in mechanisms])
+
+
+def gain_of(before: FloatArray, after: FloatArray) -> float:
+    """By how much load factors, (n_scenes,), became smaller, each over its size before; their mean."""
+    sizes = np.abs(before)
+    return float(np.mean((before - after) / np.maximum(sizes, LEAST * sizes.max())))
 
 
 def _step(
-    scene: PlanarScene, walk: _Walk, mechanism: Mechanism, share: float, settings: MovingSettings
-) -> tuple[FloatArray, Mechanism] | None:
-    """Points after a step and their mechanism; None where that is no better."""
-    areas = areas_of(scene.triangles, walk.points)
+    scenes: Sequence[PlanarScene],
+    walk: _Walk,
+    mechanisms: Sequence[Mechanism],
+    share: float,
+    settings: MovingSettings,
+) -> tuple[FloatArray, tuple[Mechanism, ...], float] | None:
+    """Points after a step, their mechanisms and the gain; None where that is no better."""
+    areas = areas_of(scenes[0].triangles, walk.points)
     spare = settings.thins * np.maximum(1.0 - walk.thinnest / areas, 0.0)
-    step = corner_step(scene, walk.points, mechanism, walk.motions, share * walk.reach, spare)
+    step = corner_step(scenes, walk.points, mechanisms, walk.motions, share * walk.reach, spare)
     if step is None:
         return None
     moved = walk.points + step
-    if (areas_of(scene.triangles, moved) < FLOOR * walk.thinnest).any():
+    if (areas_of(scenes[0].triangles, moved) < FLOOR * walk.thinnest).any():
         return None
-    better = find_mechanism(scene, moved)
-    if better is None or not better.load_factor < mechanism.load_factor:
-        return None
-    return moved, better
+    better = find_mechanisms(scenes, moved)
+    gain = -np.inf if better is None else gain_of(walk.told[-1], load_factors_of(better))
+    return None if better is None or gain <= 0.0 else (moved, better, gain)

@@ -19,7 +19,7 @@ from mbla.program.kinematic import ConeProgram
 from mbla.soil_mesh.planar_scene import NOTHING, PlanarScene, areas_of, cross, edge_lines
 from mbla.solution.cone_solvers.clarabel_adapter import ClarabelProgram
 from mbla.solution.settings import SolverSettings
-from mbla.solution.solution import WITH_VALUE, IterationRecord
+from mbla.solution.solution import WITH_VALUE, IterationRecord, Status
 
 SETTINGS = SolverSettings(tolerance=1e-8, max_iterations=200)
 """of one program"""
@@ -46,6 +46,7 @@ class PlanarProgram:
 class Mechanism:
     """Solution of the program: an upper load factor and the motions that give it a live power of 1.
 
+    load_factor : -inf where dead loads alone have no equilibrium; then all motions are zero
     motions : (n_bodies, 3) u and ω
     slips   : (n_edges, 2) p at both ends; overlaps : (n_edges, 2) d
     """
@@ -125,18 +126,23 @@ def with_unit_live_load(scene: PlanarScene, points: FloatArray) -> tuple[PlanarS
 
 
 def solve_linear(
-    cost: FloatArray, live: FloatArray, rows: sp.csr_array, rhs: FloatArray
+    cost: FloatArray, live: FloatArray | sp.csr_array, rows: sp.csr_array, rhs: FloatArray
 ) -> tuple[FloatArray, float] | None:
-    """Solution x of min cost·x, live·x = 1, rows·x ≤ rhs, and the minimum; None where there is none."""
+    """Solution x of min cost·x, live·x = 1 of each row of live, rows·x ≤ rhs, and the minimum, -inf where it has none;
+    None where no x does that, or the solver finds none.
+    """
     unit = float(np.abs(cost).max(initial=0.0)) or 1.0
-    matrix = sp.csc_array(sp.vstack([sp.csr_array(live[None, :]), rows]))
-    program = ConeProgram(cost / unit, matrix, np.concatenate([[1.0], rhs]), len(rhs), 0)
+    equal = sp.csr_array(live[None, :]) if isinstance(live, np.ndarray) else live
+    matrix, ones = sp.csc_array(sp.vstack([equal, rows])), np.ones(equal.shape[0])
+    program = ConeProgram(cost / unit, matrix, np.concatenate([ones, rhs]), len(rhs), 0)
     solution = ClarabelProgram(program, SETTINGS, _unheard).solve_once(0, 1.0)
+    if solution.status is Status.NO_EQUILIBRIUM:
+        return np.zeros(len(cost)), -np.inf
     return (solution.x, solution.objective * unit) if solution.status in WITH_VALUE else None
 
 
 def find_mechanism(scene: PlanarScene, points: FloatArray) -> Mechanism | None:
-    """The mechanism of the least load factor; None where nothing can move, or dead loads alone have no equilibrium."""
+    """The mechanism of the least load factor; None where nothing can move."""
     program = planar_program(scene, points)
     solved = solve_linear(program.cost, program.live, program.rows, np.zeros(program.rows.shape[0]))
     if solved is None:

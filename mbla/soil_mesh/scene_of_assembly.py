@@ -16,7 +16,7 @@ import scipy.sparse as sp
 from scipy.linalg import null_space, orth
 from scipy.spatial import KDTree
 
-from mbla.arrays import FloatArray, IntArray, summed
+from mbla.arrays import BoolArray, FloatArray, IntArray, summed
 from mbla.assembly.assembly import Assembly
 from mbla.assembly.rigid_bodies import RigidBodies
 from mbla.model.applied_load import AppliedLoad
@@ -39,12 +39,14 @@ class Cells:
     triangles : (n_cells, 3) points, counter-clockwise from the first axis to the second
     blocks    : (n_cells,) the block of each
     axes      : (3, 3) unit vectors, two of the plane and one across
+    held      : (n_points,) points that stay
     """
 
     points: FloatArray
     triangles: IntArray
     blocks: IntArray
     axes: FloatArray
+    held: BoolArray
 
 
 @dataclass(frozen=True)
@@ -143,7 +145,7 @@ def _motions(edges: _Edges, cells: Cells, own: IntArray, law: IntArray) -> sp.cs
     row = {tuple(pair): number for number, pair in enumerate(np.sort(outline, axis=1).tolist())}
     beyond: list[set[tuple[int, int]]] = [set() for _ in outline]
     held = np.ones(len(edges.points), dtype=bool)
-    held[:n] = False
+    held[:n] = cells.held
     is_cell = np.asarray(np.isin(edges.bodies, own))
     for number in np.flatnonzero(is_cell.sum(axis=1) == 1).tolist():
         edge = edges.edges[number]

@@ -130,7 +130,7 @@ def main(part: str, sizes: tuple[float, ...]) -> None:
                 case, started = make(size=size, crossed=crossed), time.process_time()
                 if len(case.scene.triangles) > MOST:
                     break
-                moved = move_corners(case.scene, case.points, case.motions)
+                moved = move_corners([case.scene], case.points, case.motions)
                 seconds, cells = time.process_time() - started, len(case.scene.triangles)
                 error = moved.load_factor / exact - 1.0
                 rate = 2 * np.log(abs(before[1] / error)) / np.log(cells / before[0]) if before else np.nan

@@ -11,7 +11,7 @@ from tests.soil_mesh.scenes import SoilCase, slope, strip, wall
 
 
 def error(case: SoilCase) -> float:
-    return move_corners(case.scene, case.points, case.motions).load_factor / case.exact - 1.0
+    return move_corners([case.scene], case.points, case.motions).load_factor / case.exact - 1.0
 
 
 def test_strip_on_clay_is_that_of_prandtl() -> None:

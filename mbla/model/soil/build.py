@@ -22,8 +22,9 @@ from mbla.model.selectors import BlockSelection, select_blocks
 from mbla.model.soil.cells import build_soil, mesh_of
 from mbla.model.soil.fill_region import fill_region
 from mbla.model.soil.item_region import item_region
+from mbla.model.soil.plane_mesh import PlaneMesh
 from mbla.model.soil.region import Region
-from mbla.model.soil.soil_mesh import SoilMesh
+from mbla.model.soil.soil_mesh import SoilCorners, SoilMesh, StrangeCornersError
 from mbla.model.solids.append import append_blocks
 from mbla.model.solids.blocks import Blocks
 from mbla.model.supports.supports import plane_of
@@ -44,23 +45,23 @@ class Soils:
     partial: frozenset[str] = frozenset()
 
 
-def build_soils(deck: Deck, before: BlockSelection, moved: Mapping[str, FloatArray]) -> Soils:
+def build_soils(deck: Deck, before: BlockSelection, corners: Mapping[str, SoilCorners]) -> Soils:
     """All soil of cells of a deck beside and on the blocks of its other items; faults go to the selection.
 
-    moved : by name of the soil, other places (n, 2) of the points of its mesh, as they were moved
+    corners : by name of the soil, those of its cells in the place of those that are made for its size
 
-    Raises ValueError for points that are none of a soil.
+    Raises StrangeCornersError for corners that are none of a soil.
     """
     given = list(_sections(deck))
-    strange = moved.keys() - {name for name, _, _ in given}
+    strange = corners.keys() - {name for name, _, _ in given}
     if strange:
-        raise ValueError(f"no soil of cells has the name {', '.join(sorted(strange))}")
+        raise StrangeCornersError(f"no soil of cells has the name {', '.join(sorted(strange))}")
     if before.partial:  # what it lies on may be missing
         return Soils(before.blocks, partial=frozenset(name for name, _, _ in given))
     soils = Soils(before.blocks)
     for name, section, path in given:
         try:
-            soils = _with_soil(soils, deck, before, name, section, path, moved.get(name))
+            soils = _with_soil(soils, deck, before, name, section, path, corners.get(name))
         except ItemRefused as refused:
             for finding in refused.findings:
                 before.refuse(finding.below(*path))
@@ -75,21 +76,18 @@ def _with_soil(
     name: str,
     section: Fill | SoilItem,
     path: KeyPath,
-    moved: FloatArray | None,
+    corners: SoilCorners | None,
 ) -> Soils:
     region = _region(soils, deck, before, section, path)
     if region is None:
         return replace(soils, partial=soils.partial | {name})
     assert section.cells is not None
-    mesh = mesh_of(region, section.cells.size)
-    if moved is not None:
-        if moved.shape != mesh.points.shape:
-            raise ValueError(f"soil {name} has {len(mesh.points)} points, not an array of {moved.shape}")
-        if (mesh.areas(moved) <= 0.0).any():
-            raise ValueError(f"points of soil {name} turn cells over")
-        mesh = replace(mesh, points=moved)
+    corners = SoilCorners(section.cells.size, None, moved=False) if corners is None else corners
+    mesh = mesh_of(region, corners.size)
+    if corners.points is not None:
+        mesh = _with_corners(mesh, corners.points, name, corners.size)
     density = density_of(deck.content.materials[section.material], deck.units)
-    soil = build_soil(section, name, region, mesh, density, len(soils.blocks), deck.contacts.tolerance)
+    soil = build_soil(section, name, region, mesh, corners, density, len(soils.blocks), deck.contacts.tolerance)
     return replace(
         soils,
         blocks=append_blocks(soils.blocks, soil.cells),
@@ -97,6 +95,23 @@ def _with_soil(
         joints=(*soils.joints, *soil.joints),
         grounds=(*soils.grounds, *soil.grounds),
     )
+
+
+ASIDE = 1e-9
+"""distance over the size of cells by which corners that are moved may lie off the outline of the soil"""
+
+
+def _with_corners(mesh: PlaneMesh, points: FloatArray, name: str, size: float) -> PlaneMesh:
+    """The mesh with its corners elsewhere; StrangeCornersError where they change its outline or turn cells over."""
+    if points.shape != mesh.points.shape:
+        raise StrangeCornersError(f"soil {name} has {len(mesh.points)} corners of cells, not {len(points)}")
+    off = points - mesh.points
+    off = off - (off * mesh.along).sum(axis=1, keepdims=True) * mesh.along
+    if np.abs(off[~mesh.inside]).max(initial=0.0) > ASIDE * size:
+        raise StrangeCornersError(f"corners of cells of soil {name} are off its outline")
+    if (mesh.areas(points) <= 0.0).any():
+        raise StrangeCornersError(f"corners of cells of soil {name} turn cells over")
+    return replace(mesh, points=points)
 
 
 def _region(soils: Soils, deck: Deck, before: BlockSelection, section: Fill | SoilItem, path: KeyPath) -> Region | None:

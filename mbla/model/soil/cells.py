@@ -17,7 +17,7 @@ from mbla.model.model import Ground, Joint
 from mbla.model.soil.mesh import AREA, NotConformingError, triangulate
 from mbla.model.soil.plane_mesh import PlaneMesh
 from mbla.model.soil.region import HeldEdge, Region
-from mbla.model.soil.soil_mesh import SoilMesh
+from mbla.model.soil.soil_mesh import SoilCorners, SoilMesh
 from mbla.model.solids.blocks import Blocks, labels_of
 from mbla.model.solids.build import Labels, build_blocks
 from mbla.model.solids.polyhedra import Polyhedra, chains, in_space
@@ -50,11 +50,19 @@ def mesh_of(region: Region, size: float) -> PlaneMesh:
 
 
 def build_soil(
-    section: Fill | SoilItem, name: str, region: Region, mesh: PlaneMesh, density: float, first: int, tolerance: float
+    section: Fill | SoilItem,
+    name: str,
+    region: Region,
+    mesh: PlaneMesh,
+    corners: SoilCorners,
+    density: float,
+    first: int,
+    tolerance: float,
 ) -> Soil:
     """The soil of a section of the deck.
 
-    mesh  : of the region, with its points where they are to be
+    mesh    : of the region, with its points where they are to be
+    corners : these, and whether they were moved
     first : number of the first cell among the blocks
     """
     joint, wall = joints_of(section, name)
@@ -64,6 +72,8 @@ def build_soil(
         along=mesh.along,
         inside=mesh.inside,
         name=name,
+        size=corners.size,
+        moved=corners.moved,
         axes=region.axes,
         extent=region.extent,
         first=first,

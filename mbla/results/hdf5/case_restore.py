@@ -63,13 +63,13 @@ def case_from(load_case: LoadCase, get: dict[str, Any]) -> CaseResult:
         "standing": _standing(get),
         "size": _size(get),
         "reductions": _reductions(get),
-        "programs": _records(ProgramRecord, get, "programs"),
-        "iterations": _records(IterationRecord, get, "iterations"),
-        "path": _records(PathPoint, get, "path"),
-        "path_by_stiffness": _records(PathByStiffness, get, "path_by_stiffness"),
+        "programs": records(ProgramRecord, get, "programs"),
+        "iterations": records(IterationRecord, get, "iterations"),
+        "path": records(PathPoint, get, "path"),
+        "path_by_stiffness": records(PathByStiffness, get, "path_by_stiffness"),
         "further": Further(
             pushover=_pushover(get),
-            sensitivity=_records(Slope, get, "sensitivity") if "sensitivity/parameter" in get else (),
+            sensitivity=records(Slope, get, "sensitivity") if "sensitivity/parameter" in get else (),
             geometric_safety=_geometric_safety(get),
         ),
     }
@@ -84,7 +84,7 @@ def _assessment(load_case: LoadCase, get: dict[str, Any], solution: Solution) ->
     if load_case.assessment is None or "assessment/symbol" not in get:
         return None
     remarks = tuple(each for each in solution.remarks if each.identifier in REMARKS)
-    return Assessment(NAMES[load_case.assessment.code], _records(Figure, get, "assessment"), remarks)
+    return Assessment(NAMES[load_case.assessment.code], records(Figure, get, "assessment"), remarks)
 
 
 ENERGIES = ("live_work", "friction", "tie_work", "crushing", "potential")
@@ -111,7 +111,7 @@ def _pushover(get: dict[str, Any]) -> Pushover:
     if (np.diff(start) < 0).any() or start[1] != 0:
         raise ValueError("points of a pushover")
     own = held(Pushover, "", get) | {"curve_end": CurveEnd(get["curve_end"])}
-    return Pushover(**own, curve=_records(CurveRow, get, "curve"), rows=rows)
+    return Pushover(**own, curve=records(CurveRow, get, "curve"), rows=rows)
 
 
 def _geometric_safety(get: dict[str, Any]) -> GeometricSafety | None:
@@ -190,7 +190,7 @@ def _reductions(get: dict[str, Any]) -> tuple[ReductionStep, ...]:
     return tuple(ReductionStep(name, ReductionOutcome(state), *row) for name, state, *row in rows)
 
 
-def _records(kind: type[Record], get: dict[str, Any], group: str) -> tuple[Record, ...]:
+def records(kind: type[Record], get: dict[str, Any], group: str) -> tuple[Record, ...]:
     """A list of records from its columns."""
     found = held(kind, group, get)
     columns = {name: column if isinstance(column, list) else column.tolist() for name, column in found.items()}

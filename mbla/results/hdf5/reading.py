@@ -24,7 +24,7 @@ from mbla.results.hdf5.layout import (
     strings,
     text_of,
 )
-from mbla.results.hdf5.restore import LOADS_FOUND, built_again, deck_record, results_from, with_loads_found
+from mbla.results.hdf5.restore import LOADS_FOUND, SOIL_FOUND, built_again, deck_record, results_from, with_loads_found
 from mbla.results.provenance import has_its_hash
 from mbla.results.quantities.quantity import Quantity
 from mbla.results.quantities.registry import OF_MODEL, OF_RUN
@@ -83,7 +83,8 @@ def results_of(file: h5py.File, path: Path, *, to_verify: bool = False) -> Resul
     if not to_verify and not has_its_hash(record):
         words = "its deck was changed after the run: run the deck again, mbla verify says what differs"
         raise FileError("damaged-result-file", f"{path}: {words}")
-    assembly = built_again(record, path)
+    soil = _read_content(file, file_bytes, [(each.path, each) for each in SOIL_FOUND], sizes.copy())
+    assembly = built_again(record, path, soil)
     sizes |= sizes_of(assembly)
     for name in (name for name in sizes if name in SHARED_DIMENSIONS and name in file):
         if len(file[name]) != sizes[name]:

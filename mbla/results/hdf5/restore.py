@@ -6,7 +6,7 @@ The content has been checked against the layout already; what is checked here is
 from __future__ import annotations
 
 import tempfile
-from dataclasses import replace
+from dataclasses import fields, replace
 from pathlib import Path
 from typing import Any
 
@@ -17,12 +17,14 @@ from mbla.errors import DeckError, FileError, Notice
 from mbla.model import build_model
 from mbla.model.model import LoadCase
 from mbla.model.settlement import with_reference
+from mbla.model.soil.soil_figure import SoilFigure
+from mbla.model.soil.soil_mesh import SoilCorners, StrangeCornersError
 from mbla.questions.angle import Angle
 from mbla.questions.load_factor import LOAD_FACTOR
 from mbla.questions.reaction import Reaction
 from mbla.questions.tilt import chord
 from mbla.questions.travel import Travel
-from mbla.results.hdf5.case_restore import case_from
+from mbla.results.hdf5.case_restore import case_from, records
 from mbla.results.hdf5.layout import Content
 from mbla.results.provenance import deck_of
 from mbla.results.quantities.registry import STORED_BY_PATH
@@ -32,9 +34,14 @@ from mbla.solution.verification.tilting_table import angle_of_load, leads_across
 LOADS_FOUND = tuple(
     STORED_BY_PATH[f"cases/*/{name}"]
     for name in ("live_load", "pushover/step", "settlement/reference", "tilt/angle", "tilt/tangent", "tilt/upright")
-)
+) + tuple(STORED_BY_PATH[f"cases/*/soil/{field.name}"] for field in fields(SoilFigure))
 """what solving finds of the loads of a case, so that no deck says it: the reaction from which a support gives way, the
-angle of a tilting table, and at which position of a travelling load the structure is pushed"""
+angle of a tilting table, and at which position of a travelling load the structure is pushed, and load
+factors on meshes of soil"""
+SOIL_FOUND = tuple(
+    STORED_BY_PATH[f"model/{name}"] for name in ("soil_names", "soil_sizes", "soil_moved", "soil_start", "soil_corners")
+)
+"""corners of cells of soil, as they were moved"""
 
 
 def deck_record(get: Content, attributes: dict[str, str | int]) -> DeckRecord:
@@ -51,16 +58,32 @@ def deck_record(get: Content, attributes: dict[str, str | int]) -> DeckRecord:
     )
 
 
-def built_again(record: DeckRecord, path: Path) -> Assembly:
-    """Model and contacts of the deck in a file; FileError where that is not valid."""
+def built_again(record: DeckRecord, path: Path, get: Content) -> Assembly:
+    """Model and contacts of the deck in a file; FileError where that is not valid.
+
+    get : with the corners of soil as they were moved
+    """
     with tempfile.TemporaryDirectory() as name:
         try:
             deck = deck_of(record, Path(name), expected=False)
-            return build_assembly(deck, build_model(deck))
-        except (DeckError, FileError) as error:
+            return build_assembly(deck, build_model(deck, soil_corners(get)))
+        except (DeckError, FileError, StrangeCornersError) as error:
             why = str(error.faults[0] if isinstance(error, DeckError) else error).replace(f"{name}/", "")
             words = f"{path}: the deck in the file is not valid: {why}"
             raise FileError("damaged-result-file", words) from error
+
+
+def soil_corners(content: Content) -> dict[str, SoilCorners]:
+    """Corners of cells by name of the soil."""
+    get: dict[str, Any] = content
+    if "model/soil_names" not in get:
+        return {}
+    start, points = get["model/soil_start"], get["model/soil_corners"]
+    rows = zip(get["model/soil_names"], get["model/soil_sizes"].tolist(), get["model/soil_moved"].tolist(), strict=True)
+    return {
+        name: SoilCorners(size, points[start[row] : start[row + 1]], moved)
+        for row, (name, size, moved) in enumerate(rows)
+    }
 
 
 def with_loads_found(assembly: Assembly, get: Content) -> Assembly:
@@ -71,6 +94,8 @@ def with_loads_found(assembly: Assembly, get: Content) -> Assembly:
 
 
 def _found(case: LoadCase, get: dict[str, Any]) -> LoadCase:
+    if "soil/cells" in get:
+        case = replace(case, soil=records(SoilFigure, get, "soil"))
     match case.question:
         case Reaction() if "settlement/reference" in get:
             return with_reference(case, get["settlement/reference"])

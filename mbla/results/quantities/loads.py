@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from mbla.model.model import LoadCase, Pushing
+from mbla.model.soil.soil_figure import SoilFigure
 from mbla.questions.force import Objective
 from mbla.questions.reaction import Settlement
 from mbla.questions.tilt import Tilt
@@ -20,6 +21,14 @@ SETTLEMENT = Group[Settlement](
 )
 OBJECTIVE = Group[Objective](
     lambda scene: scene.load_case.question.record(Objective), file="cases/*/objective", asked=True, part="objective"
+)
+SOIL = Group[tuple[SoilFigure, ...]](
+    lambda scene: scene.load_case.soil or None,
+    file="cases/*/soil",
+    rows="soil_mesh",
+    asked=True,
+    part="soil",
+    unverified="course",
 )
 
 ASSESSMENT = Group[LoadCase](lambda scene: scene.load_case, file="cases/*/assessment", asked=True)
@@ -113,4 +122,17 @@ OBJECTIVE.fields(
     sides=Field("1: the force acts on this block or ground, -1: it comes from it, 0: neither", "body"),
     ties=Field("ties whose forces are added up; none: the force through joints", "sought_tie", rule="index of tie"),
     measured_along=Field("unit vector along which the force counts", "axis", attribute="direction"),
+)
+
+
+SOIL.fields(
+    SoilFigure,
+    size=Field("of the cells of a mesh of soil that was moved, over that which the deck asks for"),
+    cells=Field("how many cells"),
+    load_factor=Field(
+        "upper load factor of the planar problem on it; inf: nothing moves, -inf: falls under its dead load alone",
+        rule="open",
+    ),
+    followed=Field("1 where its corners were moved for this load case"),
+    shown=Field("1 where the results are those on this mesh"),
 )

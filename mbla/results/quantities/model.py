@@ -9,6 +9,7 @@ import numpy as np
 from mbla.arrays import FloatArray, IntArray, starts
 from mbla.model.fill.fill import CarriedFill
 from mbla.model.model import Ground, Joint, Model
+from mbla.model.soil.soil_mesh import SoilMesh
 from mbla.model.supports.guides import Guides
 from mbla.results.quantities.group import Field, Group
 
@@ -18,6 +19,8 @@ GROUNDS = Group[tuple[Ground, ...]](lambda scene: scene.model.grounds, file="mod
 GUIDES = Group[Guides](
     lambda scene: scene.model.guides if len(scene.model.guides) else None, file="model", part="guides"
 )
+SOILS = Group[tuple[SoilMesh, ...]](lambda scene: scene.model.soils or None, file="model", rows="soil", part="soil")
+SOIL = Group[tuple[SoilMesh, ...]](lambda scene: scene.model.soils or None, file="model", part="soil")
 FILL = Group[CarriedFill](lambda scene: scene.model.fill, file="model", part="fill")
 
 MODEL.fields(Model, title=Field("title of the deck"))
@@ -127,3 +130,21 @@ FILL.fields(
     fill_points=Field("centroid of that mass", "block axis", unit="length", attribute="points"),
     fill_words=Field("fills in words", "fill", attribute="words"),
 )
+SOILS.fields(
+    SoilMesh,
+    soil_names=Field("soils of cells, as their groups", attribute="name"),
+    soil_sizes=Field("size that their cells are divided to", unit="length", attribute="size"),
+    soil_moved=Field("1 where corners of cells were moved to where the soil slips", attribute="moved"),
+)
+
+
+@SOIL.quantity(dims="soil_bound", rule="start of soil_corner")
+def soil_start(soils: tuple[SoilMesh, ...]) -> IntArray:
+    """First corner of its cells."""
+    return starts(np.array([len(soil.points) for soil in soils], dtype=np.int64))
+
+
+@SOIL.quantity(dims="soil_corner plane", unit="length")
+def soil_corners(soils: tuple[SoilMesh, ...]) -> FloatArray:
+    """Corners of cells in the plane of the soil, level and up."""
+    return np.concatenate([soil.points for soil in soils])

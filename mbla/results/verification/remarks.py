@@ -14,7 +14,7 @@ from mbla.assembly.assembly import Assembly
 from mbla.deck import Deck
 from mbla.errors import Message
 from mbla.questions.tilt import Tilt
-from mbla.results.collapse.ties import brittle_remarks
+from mbla.results.collapse.state_remarks import state_remarks
 from mbla.results.explanations import explanations
 from mbla.results.findings import FOUND_AGAIN
 from mbla.results.results import CaseResult
@@ -77,7 +77,7 @@ def remarks_found_again(deck: Deck, assembly: Assembly, case: CaseResult) -> tup
     if deck.analysis.geometric_safety:
         against = why_no_geometric_safety(model, contacts, load_case, deck.analysis)
         found += [no_geometric_safety(against)] if against else []
-    found += brittle_remarks(model, solution)
+    found += state_remarks(assembly.model, load_case, solution)
     return (*found, *(() if case.assessment is None else case.assessment.remarks))
 
 

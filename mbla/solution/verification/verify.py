@@ -85,6 +85,7 @@ def _verify(model: Model, contacts: Contacts, load_case: LoadCase, solution: Sol
         *_fall_failures(solution),
         *_standing_failures(model, contacts, load_case, solution),
         *tilt_failures(model, contacts, load_case, solution),
+        *_soil_failures(model, load_case),
     )
     if failures:
         checks = replace(checks, verified=False, failures=(*checks.failures, *failures))
@@ -170,6 +171,17 @@ def _standing_failures(
     limits = point_limits(model, contacts) if solution.conditions_on_interfaces else point_strengths(model, contacts)
     failures = standing_failures(model, contacts, load_case, standing.forces, standing.settlement, limits)
     return failures if stands or failures else (SHOWN,)
+
+
+def _soil_failures(model: Model, load_case: LoadCase) -> tuple[Message, ...]:
+    """On a mesh whose corners were moved for nothing soil cannot slip where it would."""
+    if not model.soils or load_case.soil:
+        return ()
+    words = (
+        "soil slips along the edges of its cells alone, which were not moved to where it slips most easily: its load "
+        "factor is an upper one, and may be far too high"
+    )
+    return (Message("soil-mesh-fixed", words),)
 
 
 def _fall_failures(solution: Solution) -> tuple[Message, ...]:

@@ -8,12 +8,12 @@ from types import MappingProxyType
 
 import pytest
 
-from mbla.arrays import FloatArray
 from mbla.deck import read_deck
 from mbla.deck.deck import Deck
 from mbla.errors import DeckError
 from mbla.model import build_model
 from mbla.model.model import Model
+from mbla.model.soil.soil_mesh import SoilCorners
 
 TEXT = """mbla: 1
 materials: {{stone: {{unit_weight: "24 kN/m^3"}}, earth: {{unit_weight: "18 kN/m^3"}}}}
@@ -62,7 +62,7 @@ def model(
     fill: str = "",
     supports: str = "[]",
     contacts: str = "",
-    soil: Mapping[str, FloatArray] = MappingProxyType({}),
+    soil: Mapping[str, SoilCorners] = MappingProxyType({}),
 ) -> Model:
     return build_model(deck(folder, *blocks, fill=fill, supports=supports, contacts=contacts), soil)
 

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from mbla.model import build_model
+from mbla.model.soil.soil_mesh import SoilCorners, StrangeCornersError
 from mbla.process.run_options import RunOptions
 from mbla.results.outcome import answer_of
 from mbla.run import run
@@ -19,23 +20,29 @@ def test_the_same_with_points_moved(tmp_path: Path) -> None:
     found = model(tmp_path, WALL, BACKFILL, supports=GROUND)
     (soil,) = found.soils
     shifts = np.where(soil.inside[:, None], [0.02, -0.01], 0.03 * soil.along)
-    moved = build_model(deck(tmp_path, WALL, BACKFILL, supports=GROUND), {"backfill": soil.points + shifts})
+    moved = build_model(
+        deck(tmp_path, WALL, BACKFILL, supports=GROUND),
+        {"backfill": SoilCorners(soil.size, soil.points + shifts, moved=True)},
+    )
     (other,) = moved.soils
     assert np.array_equal(other.points, soil.points + shifts)
     assert np.array_equal(other.triangles, soil.triangles)
     volumes = moved.blocks.volumes[other.blocks]
     assert volumes == pytest.approx(other.areas(other.points), rel=1e-9)
     assert volumes.sum() == pytest.approx(1.6, rel=1e-12)
-    again = build_model(deck(tmp_path, WALL, BACKFILL, supports=GROUND), {"backfill": soil.points})
+    again = build_model(deck(tmp_path, WALL, BACKFILL, supports=GROUND), {"backfill": soil.corners})
     assert np.array_equal(again.blocks.vertices, found.blocks.vertices)
 
 
 def test_points_that_are_none_of_it_are_refused(tmp_path: Path) -> None:
     read = deck(tmp_path, WALL, BACKFILL, supports=GROUND)
     (soil,) = build_model(read).soils
-    for points in ({"clay": soil.points}, {"backfill": soil.points[1:]}, {"backfill": soil.points[:, ::-1]}):
-        with pytest.raises(ValueError, match=r"soil"):
-            build_model(read, points)
+    off = 0.01 * soil.along[:, ::-1]
+    for points in (soil.points[1:], soil.points[:, ::-1], soil.points + off):
+        with pytest.raises(StrangeCornersError, match=r"soil"):
+            build_model(read, {"backfill": SoilCorners(soil.size, points, moved=True)})
+    with pytest.raises(StrangeCornersError, match=r"clay"):
+        build_model(read, {"clay": soil.corners})
 
 
 def test_items_have_corners_where_blocks_beside_them_have(tmp_path: Path) -> None:

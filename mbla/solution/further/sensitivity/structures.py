@@ -18,6 +18,7 @@ from mbla.deck import Deck, read_deck_text
 from mbla.errors import MblaError
 from mbla.model import Model, build_model
 from mbla.model.model import LoadCase
+from mbla.model.soil.soil_mesh import StrangeCornersError
 from mbla.solution.verification.statics import lever_arms, off_guides
 
 NEAR = 1e-3
@@ -69,12 +70,12 @@ def structure_with(deck: Deck, text: str, like: LoadedAssembly, section: str) ->
     name = like.load_case.name
     try:
         other = read_deck_text(deck.sources[0].text, deck.path, (*deck.overrides, text), expected=False)
-        model = build_model(other)
+        model = build_model(other, {soil.name: soil.corners for soil in like.model.soils})
         if len(model.blocks) != len(like.model.blocks):
             return "number of blocks"
         same = section in WITHOUT_GEOMETRY
         assembly = assembly_of(model, like.contacts) if same else build_assembly(other, model)
-    except MblaError:
+    except (MblaError, StrangeCornersError):
         return "deck that is refused"
     model = assembly.model
     case = next((case for case in model.load_cases if case.name == name), None)
