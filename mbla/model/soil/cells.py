@@ -14,7 +14,7 @@ from mbla.errors import Finding
 from mbla.model.blocks.generated import ItemRefused
 from mbla.model.blocks.soil import CELL, SoilItem
 from mbla.model.model import Ground, Joint
-from mbla.model.soil.mesh import AREA, NotConformingError, triangulate
+from mbla.model.soil.mesh import AREA, CellSize, NotConformingError, triangulate
 from mbla.model.soil.plane_mesh import PlaneMesh
 from mbla.model.soil.region import HeldEdge, Region
 from mbla.model.soil.soil_mesh import SoilCorners, SoilMesh
@@ -43,7 +43,7 @@ def mesh_of(region: Region, size: float) -> PlaneMesh:
         words = f"makes about {min(about, 1e300):.0e} cells; at most {MOST:,} can be handled"
         raise ItemRefused(Finding("too-many-units", words, "cells", "size"))
     try:
-        return triangulate(region.polygons, size)
+        return triangulate(region.polygons, CellSize(size, region.bearings))
     except NotConformingError:
         words = "cannot be divided into cells: two edges of its outline meet at nearly no angle"
         raise ItemRefused(Finding("soil-region", words)) from None

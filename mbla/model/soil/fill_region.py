@@ -17,7 +17,7 @@ from mbla.deck.sections.fill import Fill
 from mbla.errors import Finding
 from mbla.model.blocks.generated import ItemRefused
 from mbla.model.soil.plane import SQUARE, Sections, plane_of_prisms, sections_of
-from mbla.model.soil.region import HeldEdge, Region, beside, overlapping, polygons_of, with_corners
+from mbla.model.soil.region import HeldEdge, Region, beside, overlapping, polygons_of, with_bearings, with_corners
 from mbla.model.solids.blocks import Blocks
 from mbla.model.solids.plane import unit
 from mbla.model.wording import named
@@ -69,7 +69,8 @@ def fill_region(fill: Fill, blocks: Blocks, chosen: IntArray, levels: FloatArray
     near = np.concatenate([chosen, others.blocks])
     upper = np.stack([ends.soil, top.heights(ends.soil)], axis=1)
     own = np.concatenate([upper, np.stack([ends.soil, ends.feet], axis=1), np.stack([ends.blocks, ends.feet], axis=1)])
-    return with_corners(replace(between, held=held), blocks, near, tolerance, own)
+    region = with_corners(replace(between, held=held), blocks, near, tolerance, own)
+    return with_bearings(region, others, tolerance)
 
 
 def _top(fill: Fill, axes: FloatArray) -> _Top:

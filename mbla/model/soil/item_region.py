@@ -9,7 +9,7 @@ from mbla.arrays import IntArray
 from mbla.errors import Finding
 from mbla.model.blocks.generated import ItemRefused
 from mbla.model.blocks.soil import SoilItem
-from mbla.model.soil.region import Region, beside, overlapping, with_corners
+from mbla.model.soil.region import Region, beside, overlapping, with_bearings, with_corners
 from mbla.model.solids.blocks import Blocks
 from mbla.model.solids.polyhedra import in_space
 from mbla.model.transform import IDENTITY, build_transform
@@ -44,4 +44,4 @@ def item_region(item: SoilItem, blocks: Blocks, tolerance: float) -> Region:
         where = named(np.unique(others.blocks[rows]), blocks.name)
         words = f"overlaps {where}: soil ends where blocks begin"
         raise ItemRefused(Finding("soil-region", words, "outline"))
-    return with_corners(region, blocks, others.blocks, tolerance)
+    return with_bearings(with_corners(region, blocks, others.blocks, tolerance), others, tolerance)

@@ -7,7 +7,7 @@ cells conform to blocks as to each other.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 import shapely
@@ -17,6 +17,9 @@ from mbla.arrays import FloatArray, IntArray
 from mbla.model.soil.plane import NO_SECTIONS, Sections, sections_of
 from mbla.model.solids.blocks import Blocks
 from mbla.model.solids.ragged import items_of_rows, row_ranges
+
+STRAIGHT = 1e-6
+"""sine of the angle up to which an outline goes straight on"""
 
 
 @dataclass(frozen=True)
@@ -36,12 +39,14 @@ class Region:
     extent   : (2,) across
     polygons : counter-clockwise, apart but for corners
     held     : edges at ground that the soil brings along
+    bearings : (n, 2, 2) ends of what bears on part of a straight side of the outline, as a footing does
     """
 
     axes: FloatArray
     extent: FloatArray
     polygons: tuple[shapely.Polygon, ...]
     held: tuple[HeldEdge, ...] = ()
+    bearings: FloatArray = field(default_factory=lambda: np.empty((0, 2, 2)))
 
     @property
     def area(self) -> float:
@@ -66,6 +71,37 @@ def overlapping(region: Region, others: Sections, tolerance: float) -> IntArray:
     """Rows of the sections that lie within a region by more than the tolerance."""
     common = shapely.intersection(others.outlines, shapely.union_all(region.polygons))
     return np.flatnonzero(~shapely.is_empty(shapely.buffer(common, -tolerance * others.sizes / 2.0)))
+
+
+def with_bearings(region: Region, others: Sections, tolerance: float) -> Region:
+    """The region with what of other blocks bears on part of a straight side of its outline."""
+    if not len(others.blocks):
+        return region
+    reach = tolerance * float(others.sizes.min())
+    blocks = shapely.buffer(shapely.union_all(shapely.buffer(others.outlines, reach, join_style="mitre")), 0.0)
+    found = []
+    for polygon in region.polygons:
+        for ring in (polygon.exterior, *polygon.interiors):
+            corners = shapely.get_coordinates(shapely.remove_repeated_points(ring))[:-1]
+            for side in _straight_sides(corners):
+                length = float(np.linalg.norm(side[1] - side[0]))
+                common = shapely.line_merge(shapely.intersection(shapely.LineString(side), blocks))
+                parts = [shapely.get_coordinates(part)[[0, -1]] for part in shapely.get_parts(common)]
+                lengths = [float(np.linalg.norm(part[1] - part[0])) for part in parts]
+                found += [
+                    part for part, own in zip(parts, lengths, strict=True) if 4.0 * reach < own < length - 4.0 * reach
+                ]
+    return replace(region, bearings=np.array(found).reshape(-1, 2, 2))
+
+
+def _straight_sides(corners: FloatArray) -> list[FloatArray]:
+    """Sides (2, 2) of a ring of corners (n, 2), those that go straight on joined."""
+    before = corners - np.roll(corners, 1, axis=0)
+    after = np.roll(corners, -1, axis=0) - corners
+    sines = before[:, 0] * after[:, 1] - before[:, 1] * after[:, 0]
+    turns = np.flatnonzero(np.abs(sines) > STRAIGHT * np.linalg.norm(before, axis=1) * np.linalg.norm(after, axis=1))
+    ends = np.roll(turns, -1)
+    return [corners[[start, end]] for start, end in zip(turns.tolist(), ends.tolist(), strict=True)]
 
 
 def with_corners(

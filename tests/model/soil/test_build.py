@@ -147,3 +147,11 @@ def test_active_pressure_where_cells_have_its_slip_line(tmp_path: Path) -> None:
 def test_active_pressure_from_below_where_they_have_not(tmp_path: Path) -> None:
     """Cells restrict the ways in which soil can follow a wall: it pushes less on one that gives way."""
     assert 0.0 < thrust(tmp_path, "", 0.4) < RANKINE
+
+
+def test_cells_are_smaller_under_a_footing_and_not_behind_a_wall(tmp_path: Path) -> None:
+    (soil,) = model(tmp_path, BACKFILL, FOOTING, WALL, supports=GROUND).soils
+    on_top = np.abs(soil.points[:, 1] - 1.0) < 1e-12
+    under = on_top & (soil.points[:, 0] > 0.4 - 1e-9) & (soil.points[:, 0] < 0.9 + 1e-9)
+    behind = np.abs(soil.points[:, 0]) < 1e-12
+    assert (under.sum(), behind.sum()) == (5, 4)
