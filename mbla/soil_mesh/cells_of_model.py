@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from dataclasses import replace
+
 import numpy as np
 import shapely
 
 from mbla.arrays import BoolArray, FloatArray
-from mbla.model.model import Model
+from mbla.model.model import LoadCase, Model
 from mbla.model.soil.soil_mesh import SoilCorners, SoilMesh
 from mbla.soil_mesh.scene_of_assembly import SAME, Cells
 
@@ -49,3 +52,16 @@ def corners_of(model: Model, cells: Cells, points: FloatArray) -> dict[str, Soil
         found[soil.name] = SoilCorners(soil.size, soil.points + off, moved=True)
         first += len(soil.points)
     return found
+
+
+def with_loaded_held(cells: Cells, model: Model, load_cases: Sequence[LoadCase]) -> Cells:
+    """The cells with the corners on the outline held of those that carry loads of these load cases on their faces.
+
+    What of such loads each cell carries follows from where its corners are.
+    """
+    loads = [load for case in load_cases for load in (*case.dead, *case.live) if not load.on_masses]
+    loaded = np.isin(cells.blocks, np.concatenate([np.empty(0, np.int64), *(load.blocks for load in loads)]))
+    corners = np.zeros(len(cells.points), dtype=bool)
+    corners[cells.triangles[loaded]] = True
+    inside = np.concatenate([soil.inside for soil in model.soils])
+    return replace(cells, held=cells.held | (corners & ~inside))

@@ -3,8 +3,8 @@
 Moving ends in one of many meshes that are about as good, none of them the best: the mesh is made and moved at two
 sizes, the better one is taken, and the figures of both say how far the figure hangs on the mesh.
 
-Of the positions of a travelling load the mesh follows the one with the least load factor, and where another one has it
-on the moved mesh, that one, too.
+Of the positions of a travelling load the mesh follows the worst one alone. Which one that is, larger cells tell that
+are moved for each position, from those of the position before.
 """
 
 from __future__ import annotations
@@ -17,38 +17,31 @@ import numpy as np
 from mbla.assembly import Assembly, build_assembly
 from mbla.deck import Deck
 from mbla.model import build_model
-from mbla.model.model import LoadCase, Model
+from mbla.model.model import LoadCase
 from mbla.model.soil.soil_figure import SoilFigure
 from mbla.model.soil.soil_mesh import SoilCorners
 from mbla.questions.travel import Travel
-from mbla.soil_mesh.cells_of_model import cells_of, corners_of
+from mbla.soil_mesh.cells_of_model import cells_of, corners_of, with_loaded_held
 from mbla.soil_mesh.moving import gain_of, move_corners
 from mbla.soil_mesh.planar_program import find_mechanism, with_unit_live_load
+from mbla.soil_mesh.planar_scene import areas_of
 from mbla.soil_mesh.scene_of_assembly import Cells, SoilScene, scene_of_assembly
 
-SIZES = (1.0, 1.5)
-"""of cells, over that which the deck asks for"""
-
-ROUNDS = 3
-"""greatest number of times that the model is built again on moved corners and moved on"""
-
-SAME = 1e-3
-"""difference of load factors, over their size, of a mesh as it was moved and of the model built on it: loads on soil
-were spread on other cells"""
+LARGER = 1.5
+"""size of larger cells, over that which the deck asks for"""
 
 
 @dataclass(frozen=True)
-class _Candidate:
-    """A mesh that was moved.
-
-    load_factors : of planar scenes by name of the load case
-    followed     : names of those that the corners were moved for
-    """
+class _Mesh:
+    """A mesh, over the size of cells that the deck asks for."""
 
     assembly: Assembly
+    cells: Cells
     size: float
-    load_factors: dict[str, float]
-    followed: list[str]
+
+    def figure(self, load_factor: float, *, followed: bool, shown: bool) -> SoilFigure:
+        """A load factor on it."""
+        return SoilFigure(self.size, len(self.cells.triangles), load_factor, followed, shown)
 
 
 def with_moved_soil(deck: Deck, assembly: Assembly, load_cases: Sequence[LoadCase]) -> Assembly:
@@ -57,46 +50,37 @@ def with_moved_soil(deck: Deck, assembly: Assembly, load_cases: Sequence[LoadCas
     Load cases have the figures of their planar scenes on meshes of each size. Where none of them has a scene in which
     the live load does work, the assembly stays as it is.
     """
-    candidates = []
-    for size in SIZES:
-        candidate = _moved(deck, assembly if size == 1.0 else _at_size(deck, assembly, size), size, load_cases)
-        if candidate is not None:
-            candidates.append(candidate)
-    if not candidates:
+    names = [case.name for case in load_cases]
+    first, larger = _mesh(assembly, 1.0), _mesh(_at_size(deck, assembly, LARGER), LARGER)
+    if first is None or larger is None:
         return assembly
-    best = _better(candidates)
-    model = best.assembly.model
-    found = {case.name: tuple(_figure(each, case.name, best) for each in candidates) for case in load_cases}
-    cases = tuple(
-        replace(case, soil=tuple(figure for figure in found.get(case.name, ()) if figure is not None))
-        for case in model.load_cases
-    )
-    return best.assembly.with_load_cases(cases)
+    own = _own_load_factors(larger, [case.name for case in load_cases if isinstance(case.question, Travel)])
+    followed = _to_follow(load_cases, own)
+    meshes = [_moved(deck, mesh, followed) for mesh in (first, larger)]
+    moved = [mesh for mesh in meshes if mesh is not None]
+    if not moved:
+        return assembly
+    factors = [_load_factors(mesh, names) for mesh in moved]
+    best = _better([[each.get(name, np.inf) for name in followed] for each in factors])
+    found: dict[str, tuple[SoilFigure, ...]] = {}
+    for name in factors[best]:
+        rows = range(len(moved)) if name in followed else [best]
+        figures = [
+            moved[row].figure(factors[row][name], followed=name in followed, shown=row == best)
+            for row in rows
+            if name in factors[row]
+        ]
+        if name in own and name not in followed:
+            figures.append(larger.figure(own[name], followed=True, shown=False))
+        found[name] = tuple(figures)
+    shown = moved[best].assembly
+    return shown.with_load_cases(tuple(replace(case, soil=found.get(case.name, ())) for case in shown.model.load_cases))
 
 
-def _figure(candidate: _Candidate, name: str, best: _Candidate) -> SoilFigure | None:
-    """What a mesh gives for a load case; None where that has no planar scene."""
-    factor = candidate.load_factors.get(name)
-    if factor is None:
-        return None
-    cells = _n_cells(candidate.assembly.model)
-    return SoilFigure(candidate.size, cells, factor, name in candidate.followed, candidate is best)
-
-
-def _n_cells(model: Model) -> int:
-    return sum(len(soil.triangles) for soil in model.soils)
-
-
-def _better(candidates: Sequence[_Candidate]) -> _Candidate:
-    """The one with the lower load factors, of several the lower ones in the mean of their ratios."""
-    best = candidates[0]
-    for other in candidates[1:]:
-        common = [name for name in best.load_factors if name in other.load_factors]
-        pairs = np.array([(best.load_factors[name], other.load_factors[name]) for name in common])
-        pairs = pairs[np.isfinite(pairs).all(axis=1)] if np.isfinite(pairs).all(axis=1).any() else pairs
-        if len(pairs) and (np.isneginf(pairs[:, 1]).any() or gain_of(pairs[:, 0], pairs[:, 1]) > 0.0):
-            best = other
-    return best
+def _mesh(assembly: Assembly, size: float) -> _Mesh | None:
+    """The mesh of an assembly; None where the planes of its soils differ."""
+    cells = cells_of(assembly.model)
+    return None if cells is None else _Mesh(assembly, cells, size)
 
 
 def _at_size(deck: Deck, assembly: Assembly, size: float) -> Assembly:
@@ -105,76 +89,81 @@ def _at_size(deck: Deck, assembly: Assembly, size: float) -> Assembly:
     return build_assembly(deck, build_model(deck, corners))
 
 
-def _moved(deck: Deck, assembly: Assembly, size: float, load_cases: Sequence[LoadCase]) -> _Candidate | None:
-    """A mesh moved for the load cases of a deck; None where none of these has a scene."""
-    followed: list[str] = []
-    factors: dict[str, float] = {}
-    for _ in range(ROUNDS):
-        cells = cells_of(assembly.model)
-        scenes = {} if cells is None else _scenes(assembly, _again(assembly.model, load_cases), cells)
-        before, factors = factors, _load_factors(scenes)
-        wanted = _to_follow(load_cases, factors, followed)
-        if not wanted:
-            return None
-        stays = [abs(factors[name] - before[name]) <= SAME * abs(before[name]) for name in wanted if name in before]
-        if wanted == followed and all(stays):
-            break
-        followed = wanted
-        chosen = [scenes[name] for name in followed]
-        moved = move_corners([each.scene for each in chosen], chosen[0].points, chosen[0].motions)
-        if not moved.mechanisms:
-            return None
-        assert cells is not None
-        assembly = build_assembly(deck, build_model(deck, corners_of(assembly.model, cells, moved.points)))
-        factors = dict(zip(followed, (each.load_factor for each in moved.mechanisms), strict=True))
-    cells = cells_of(assembly.model)
-    assert cells is not None
-    scenes = _scenes(assembly, _again(assembly.model, load_cases), cells)
-    return _Candidate(assembly, size, _load_factors(scenes), followed)
-
-
-def _again(model: Model, load_cases: Sequence[LoadCase]) -> list[LoadCase]:
-    """The same load cases of a model that was built again."""
-    own = {case.name: case for case in model.load_cases}
-    return [own[case.name] for case in load_cases]
-
-
-def _scenes(assembly: Assembly, load_cases: Sequence[LoadCase], cells: Cells) -> dict[str, SoilScene]:
-    """Planar scenes of load cases by their names, those of one mesh."""
-    found: dict[str, SoilScene] = {}
+def _to_follow(load_cases: Sequence[LoadCase], own: dict[str, float]) -> list[str]:
+    """Names of the load cases that the mesh follows: of the positions of a travelling load the worst one."""
+    travelling: dict[str, list[str]] = {}
     for case in load_cases:
-        scene = scene_of_assembly(assembly, case, cells)
+        travelling.setdefault(case.deck_name if case.name in own else case.name, []).append(case.name)
+    return [min(names, key=lambda name: own.get(name, np.inf)) for names in travelling.values()]
+
+
+def _own_load_factors(mesh: _Mesh, names: Sequence[str]) -> dict[str, float]:
+    """Load factors of load cases on meshes that are moved for each, from that of the one before, by their names."""
+    found, points = {}, mesh.cells.points
+    areas = areas_of(mesh.cells.triangles, points)
+    cases = {case.name: case for case in mesh.assembly.model.load_cases}
+    for name in names:
+        cells = with_loaded_held(mesh.cells, mesh.assembly.model, [cases[name]])
+        scene = scene_of_assembly(mesh.assembly, cases[name], cells)
         if scene is None:
             continue
-        first = next(iter(found.values()), scene)
-        if scene.points.shape == first.points.shape and scene.motions.shape == first.motions.shape:
-            found[case.name] = scene
+        start = scene.points.copy()
+        free = ~cells.held
+        start[: len(points)][free] = points[free]
+        moved = move_corners([scene.scene], start, scene.motions, first=areas)
+        found[name] = moved.load_factor
+        if moved.mechanisms:
+            points = moved.points[: len(points)]
     return found
 
 
-def _load_factors(scenes: dict[str, SoilScene]) -> dict[str, float]:
-    """Of planar scenes; inf where nothing moves."""
+def _moved(deck: Deck, mesh: _Mesh, names: Sequence[str]) -> _Mesh | None:
+    """The mesh moved for load cases; None where none of these has a scene in which something moves."""
+    model = mesh.assembly.model
+    cells = with_loaded_held(mesh.cells, model, [case for case in model.load_cases if case.name in names])
+    factors, scenes = _load_factors(mesh, names), _scenes(mesh, names, cells)
+    chosen = [scenes[name] for name in factors]
+    if not chosen:
+        return None
+    moved = move_corners([each.scene for each in chosen], chosen[0].points, chosen[0].motions)
+    if not moved.mechanisms:
+        return None
+    assembly = build_assembly(deck, build_model(deck, corners_of(model, cells, moved.points)))
+    return _mesh(assembly, mesh.size)
+
+
+def _scenes(mesh: _Mesh, names: Sequence[str], cells: Cells) -> dict[str, SoilScene]:
+    """Planar scenes of load cases by their names, those of one set of edges, in which the live load does work."""
+    cases = {case.name: case for case in mesh.assembly.model.load_cases}
+    found: dict[str, SoilScene] = {}
+    for name in names:
+        scene = scene_of_assembly(mesh.assembly, cases[name], cells)
+        if scene is None or not (scene.scene.live.any() or scene.scene.live_density.any()):
+            continue
+        first = next(iter(found.values()), scene)
+        if scene.points.shape == first.points.shape and scene.motions.shape == first.motions.shape:
+            found[name] = scene
+    return found
+
+
+def _load_factors(mesh: _Mesh, names: Sequence[str]) -> dict[str, float]:
+    """Load factors of planar scenes by name of the load case; inf where nothing moves."""
     found = {}
-    for name, each in scenes.items():
+    for name, each in _scenes(mesh, names, mesh.cells).items():
         scene, unit = with_unit_live_load(each.scene, each.points)
         mechanism = find_mechanism(scene, each.points)
         found[name] = np.inf if mechanism is None else mechanism.load_factor / unit
     return found
 
 
-def _to_follow(load_cases: Sequence[LoadCase], factors: dict[str, float], followed: list[str]) -> list[str]:
-    """Names of the load cases that the mesh is to follow: all, of the positions of a travelling load the worst ones."""
-    wanted = list(followed)
-    travelling: dict[str, list[str]] = {}
-    for case in load_cases:
-        if case.name not in factors:
-            continue
-        if isinstance(case.question, Travel):
-            travelling.setdefault(case.deck_name, []).append(case.name)
-        elif case.name not in wanted:
-            wanted.append(case.name)
-    for names in travelling.values():
-        worst = min(names, key=lambda name: factors[name])
-        if worst not in wanted:
-            wanted.append(worst)
-    return wanted
+def _better(factors: Sequence[Sequence[float]]) -> int:
+    """The mesh with the lower load factors, of several load cases the lower ones in the mean of their ratios."""
+    if len(factors) < 2:
+        return 0
+    first, second = np.array(factors)
+    if np.isneginf(second).any() or np.isneginf(first).any():
+        return int(not np.isneginf(first).any())
+    known = np.isfinite(first) & np.isfinite(second)
+    if not known.any():
+        return int(np.isfinite(second).any())
+    return int(gain_of(first[known], second[known]) > 0.0)

@@ -94,13 +94,20 @@ class _Walk:
 
 
 def move_corners(
-    scenes: Sequence[PlanarScene], points: FloatArray, motions: sp.csr_array, settings: MovingSettings | None = None
+    scenes: Sequence[PlanarScene],
+    points: FloatArray,
+    motions: sp.csr_array,
+    settings: MovingSettings | None = None,
+    first: FloatArray | None = None,
 ) -> MovedMesh:
-    """Points moved from (n_points, 2) by what their motions allow, (2 n_points, n_unknowns), for scenes of one mesh."""
+    """Points moved from (n_points, 2) by what their motions allow, (2 n_points, n_unknowns), for scenes of one mesh.
+
+    first : (n_cells,) areas of cells in the first mesh; None: it is this one
+    """
     settings = MovingSettings() if settings is None else settings
     with_units = [with_unit_live_load(scene, points) for scene in scenes]
     scenes, units = [scene for scene, _ in with_units], np.array([unit for _, unit in with_units])
-    walk = _start(scenes[0], points, motions, settings)
+    walk = _start(scenes[0], points, motions, settings, first)
     for ease in reversed(_eases(scenes, points, settings.eases)):
         _move(_with_friction(scenes, ease), walk, settings, settings.eased_steps)
     found = _move(scenes, walk, settings, settings.steps)
@@ -138,14 +145,16 @@ def _with_friction(scenes: Sequence[PlanarScene], ease: float) -> list[PlanarSce
     return [replace(scene, friction=ease * scene.friction) for scene in scenes]
 
 
-def _start(scene: PlanarScene, points: FloatArray, motions: sp.csr_array, settings: MovingSettings) -> _Walk:
+def _start(
+    scene: PlanarScene, points: FloatArray, motions: sp.csr_array, settings: MovingSettings, first: FloatArray | None
+) -> _Walk:
     """A walk that has not begun."""
     areas = areas_of(scene.triangles, points)
     corners = scene.triangles.ravel()
     total = np.bincount(corners, np.repeat(areas, 3), len(points))
     size = np.sqrt(total / np.maximum(np.bincount(corners, minlength=len(points)), 1))
     reach = np.asarray(abs(motions).multiply(np.repeat(size, 2)[:, None]).max(axis=0).todense()).ravel()
-    return _Walk(points, motions, reach, settings.thinnest * areas, [])
+    return _Walk(points, motions, reach, settings.thinnest * (areas if first is None else first), [])
 
 
 def _move(

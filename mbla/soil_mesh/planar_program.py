@@ -134,7 +134,7 @@ def solve_linear(
     unit = float(np.abs(cost).max(initial=0.0)) or 1.0
     equal = sp.csr_array(live[None, :]) if isinstance(live, np.ndarray) else live
     matrix, ones = sp.csc_array(sp.vstack([equal, rows])), np.ones(equal.shape[0])
-    program = ConeProgram(cost / unit, matrix, np.concatenate([ones, rhs]), len(rhs), 0)
+    program = ConeProgram(cost / unit, matrix, np.concatenate([ones, rhs]), len(rhs), 0, n_equations=len(ones))
     solution = ClarabelProgram(program, SETTINGS, _unheard).solve_once(0, 1.0)
     if solution.status is Status.NO_EQUILIBRIUM:
         return np.zeros(len(cost)), -np.inf

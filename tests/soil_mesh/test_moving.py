@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -35,3 +37,14 @@ def test_smooth_wall_has_the_pressure_of_rankine(passive: bool) -> None:
     sign = 1.0 if passive else -1.0
     exact = sign * np.tan(np.radians(45.0 + sign * 15.0)) ** 2 / 2.0
     assert 0.0 < sign * error(wall(30.0, 0.0, 0.5, passive, exact=exact)) < 0.03
+
+
+def test_a_mesh_is_moved_for_two_load_cases_at_once() -> None:
+    """Soil of no weight and friction under a strip: the load down, and the same load up, for which it is glued to it."""
+    case = strip(0.0, 0.5, 1.8, 1.0)
+    up = replace(case.scene, live=-case.scene.live)
+    moved = move_corners([case.scene, up], case.points, case.motions)
+    first, last = moved.load_factors[0], moved.load_factors[-1]
+    assert (last < first).all()
+    assert (last / case.exact > 1.0).all()
+    assert (last / case.exact < 1.04).all()
