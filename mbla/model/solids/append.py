@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from mbla.arrays import FloatArray
 from mbla.model.solids.blocks import Blocks, join_labels
 
 
@@ -33,4 +34,16 @@ def append_blocks(blocks: Blocks, more: Blocks) -> Blocks:
         groups=blocks.groups + more.groups,
         group_indices=joined("group_indices"),
         labels=join_labels([blocks.labels, more.labels]),
+        strengths=_strengths(blocks, more),
+    )
+
+
+def _strengths(blocks: Blocks, more: Blocks) -> FloatArray | None:
+    """Of all; infinite of the blocks of which none is given."""
+    both = [each.strengths for each in (blocks, more)]
+    if both[0] is None and both[1] is None:
+        return None
+    sizes = (len(blocks), len(more))
+    return np.concatenate(
+        [np.full((size, 2), np.inf) if given is None else given for size, given in zip(sizes, both, strict=True)]
     )

@@ -199,6 +199,35 @@ def test_a_unit_that_may_crack_is_warned_of_with_the_factor_at_which_it_does() -
     assert "1 unit may crack" in listed(results)
 
 
+def beside_soil(text: dict[str, Any], earth: dict[str, float]) -> Results:
+    """The same with soil of cells apart from it."""
+    outline = [[-6, -1], [-3, -1], [-3, -0.5], [-5, -0.5]]
+    soil = {"group": "clay", "material": "earth", "outline": outline, "width": 1, "cells": {"size": 0.5}}
+    law = {"friction_angle": 35, "cohesion": 5}
+    materials = text["materials"] | {"earth": {"unit_weight": 18.0} | earth}
+    blocks = [*text["blocks"], {"soil": soil | law}]
+    return mbla.run("\n" + json.dumps(text | {"materials": materials, "blocks": blocks, "supports": BESIDE})).records
+
+
+BESIDE = [{"blocks": "pad"}, {"ground": {"z": -1}}]
+
+
+@pytest.mark.parametrize("earth", [{}, {"tensile_strength": 1e-3, "compressive_strength": 1e-3}])
+def test_units_are_judged_beside_soil_and_cells_of_soil_are_not(earth: dict[str, float]) -> None:
+    strength = {"tensile_strength": 0.8 * float(demand_shown(solved()).bending[0])}
+    alone = solved(**strength)
+    results = beside_soil(OVERHANG | {"materials": {"stone": {"unit_weight": 10.0, **strength}}}, earth)
+    found, expected = (cracking_of(each.assembly, each.cases[0]) for each in (results, alone))
+    assert found is not None
+    assert expected is not None
+    assert found.blocks.tolist() == expected.blocks.tolist() == [0]
+    assert found.uses == pytest.approx(expected.uses, rel=1e-6)
+    assert found.factor == pytest.approx(expected.factor, rel=1e-3)
+    cells = results.model.soil_of_block >= 0
+    assert cells.sum() > 3
+    assert np.isnan(demand_shown(results).bending[cells]).all()
+
+
 def test_a_unit_within_its_strength_is_not_warned_of() -> None:
     results = solved(tensile_strength=1.1 * float(demand_shown(solved()).bending[0]))
     assert cracking_of(results.assembly, results.cases[0]) is None
