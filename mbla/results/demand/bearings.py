@@ -71,10 +71,16 @@ def widths_along(contacts: Contacts, interfaces: IntArray, places: FloatArray, d
     return np.asarray(2.0 * from_middle.min(axis=1))
 
 
-def greatest_pressure(contacts: Contacts, bearings: Bearings, judged: BoolArray, apart: BoolArray) -> FloatArray:
-    """Greatest even pressure on the joints of each block, (n_blocks,) Pa; inf on an edge, nan where not judged.
+def greatest_pressure(
+    contacts: Contacts, bearings: Bearings, strengths: FloatArray, judged: BoolArray, apart: BoolArray
+) -> FloatArray:
+    """Greatest even pressure on the joints of each block, (n_blocks,) Pa; nan where not judged.
 
-    apart : (n_interfaces,) those that count
+    A joint with a compressive strength presses by no more than that. One without presses on ``HINGE`` of it at least:
+    on its very edge the pressure would have no limit, and no unit has such an edge.
+
+    strengths : (n_interfaces,) Pa, compressive ones of joints
+    apart     : (n_interfaces,) those that count
     """
     found = np.zeros(len(judged))
     chosen = np.flatnonzero(apart[bearings.interfaces])
@@ -83,12 +89,14 @@ def greatest_pressure(contacts: Contacts, bearings: Bearings, judged: BoolArray,
     across = [widths_along(contacts, rows, bearings.places[chosen], frames[:, way]) for way in (1, 2)]
     full = [widths_along(contacts, rows, contacts.centroids[rows], frames[:, way]) for way in (1, 2)]
     share = across[0] * across[1] / (full[0] * full[1])  # of an outline that is no rectangle, as of one
-    area = np.minimum(share, 1.0) * contacts.areas[rows]
-    area = np.where(share > EDGE, area, 0.0)
-    with np.errstate(divide="ignore"):
-        np.maximum.at(found, bearings.owner[chosen], bearings.pressures[chosen] / area)
+    least = np.where(np.isfinite(strengths[rows]), EDGE, HINGE)
+    pressures = bearings.pressures[chosen] / (np.clip(share, least, 1.0) * contacts.areas[rows])
+    np.maximum.at(found, bearings.owner[chosen], np.minimum(pressures, strengths[rows]))
     return np.where(judged, found, np.nan)
 
 
+HINGE = 0.1
+"""least share of a joint without a compressive strength on which it presses; an assumption: a hinge may lie a twentieth
+of the depth inside of the edge"""
 EDGE = 1e-6
-"""share of an interface up to which a resultant stands on its edge"""
+"""least share of others, which is beyond their strength"""

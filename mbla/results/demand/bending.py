@@ -1,4 +1,4 @@
-"""Tension by bending: each block as a beam along its longest direction.
+"""Tension by bending: each block as a beam along its longest direction; in a planar problem the longest in its plane.
 
 Across it sections are laid in the middle, where each force begins and ends, beside points, and halfway between those.
 On a section acts what lies on one side of it, of what is spread a share; R its sum, M its moment about the centroid of
@@ -56,7 +56,7 @@ def tension_by_bending(
 ) -> FloatArray:
     """Greatest tension in the sections of each block, (n_blocks,) Pa; 0 where there is none, nan where not judged.
 
-    judged : (n_blocks,)
+    judged : (n_blocks, 3) axes along which blocks are beams if they are long, none of those that are not judged
     """
     found = np.zeros(len(judged))
     stretches = _stretches(blocks, boxes, contacts, actions)
@@ -73,7 +73,7 @@ def tension_by_bending(
     tension[tension * areas <= NO_FORCE * scale[sections.blocks]] = 0.0
     full = areas > TAPERED * greatest[sections.blocks, sections.axes]
     np.maximum.at(found, sections.blocks[full], tension[full])
-    return np.where(judged, found, np.nan)
+    return np.where(judged.any(axis=1), found, np.nan)
 
 
 def _stretches(blocks: Blocks, boxes: Boxes, contacts: Contacts, actions: Actions) -> FloatArray:
@@ -91,7 +91,8 @@ def _stretches(blocks: Blocks, boxes: Boxes, contacts: Contacts, actions: Action
 def _sections(boxes: Boxes, actions: Actions, stretches: FloatArray, judged: BoolArray) -> Sections:
     """Beside the ends of each action on a block, halfway between, and in the middle of the block."""
     lengths = boxes.lengths
-    block, axis = np.nonzero((lengths >= AS_LONG * lengths.max(axis=1)[:, None]) & judged[:, None])
+    longest = np.where(judged, lengths, 0.0).max(axis=1)
+    block, axis = np.nonzero((lengths >= AS_LONG * longest[:, None]) & judged)
     counts = np.diff(actions.start)[block]
     span, row = np.repeat(np.arange(len(block)), counts), ranges(actions.start[block], counts)
     place, span = stretches[axis[span], :, row].T.ravel(), np.tile(span, 2)

@@ -15,6 +15,7 @@ import numpy as np
 from mbla.arrays import FloatArray, IntArray
 from mbla.assembly.assembly import Assembly
 from mbla.errors import Notice
+from mbla.model.wording import named
 from mbla.questions.figures import significant
 from mbla.questions.load_factor import LoadFactor
 from mbla.results.collapse.collapse import kept
@@ -60,7 +61,7 @@ def _first_factor(assembly: Assembly, case: CaseResult) -> float:
     mechanics, standing, load_case = case.solution.mechanics, case.solution.standing, case.load_case
     assert mechanics is not None  # the caller has forces
     dead = _dead_forces(assembly, standing)
-    if dead is None or type(load_case.question) is not LoadFactor:
+    if dead is None or not isinstance(load_case.question, LoadFactor):
         return math.nan
 
     def cracks(share: float) -> bool:
@@ -92,13 +93,20 @@ def cracking_notices(assembly: Assembly, case: CaseResult) -> tuple[Notice, ...]
     name, count = case.load_case.name, len(cracking.blocks)
     demand = demand_of(assembly, case.load_case, case.solution.mechanics)
     worst = int(cracking.blocks[0])
-    units = "1 unit" if count == 1 else f"{count} units"
+    which = named(cracking.blocks, assembly.model.blocks.name)
+    units = "1 unit" if count == 1 else f"{count} units ({which})"
     text = f"{name}: {units} may crack before the structure moves: {_worst_words(assembly, demand, worst)}"
-    if not math.isnan(cracking.factor):
-        text += f"; in proportion to the load the first does at load factor {significant(cracking.factor, 4)}"
-    else:
-        text += "; the load factor at which the first does is not known"
+    text = f"{text}; {first_words(cracking)}"
     return (Notice("warning", "units-would-crack", text, name),)
+
+
+def first_words(cracking: Cracking) -> str:
+    """At which load factor the first unit would crack."""
+    if math.isnan(cracking.factor):
+        return "the load factor at which the first does is not known"
+    if cracking.factor == 0.0:
+        return "the first does under the dead load alone"
+    return f"with forces in proportion to the load the first does at load factor {significant(cracking.factor, 4)}"
 
 
 def _worst_words(assembly: Assembly, demand: Demand, block: int) -> str:
@@ -109,8 +117,6 @@ def _worst_words(assembly: Assembly, demand: Demand, block: int) -> str:
     crushed = demand.crushing[block] / compressive if np.isfinite(compressive) else 0.0
     bent, split = demand.bending[block] / tensile, demand.splitting[block] / tensile
     if crushed > max(bent, split):
-        if math.isinf(crushed):
-            return f"{name} is pressed on an edge, which no compressive strength carries"
         pressed = f"joints press {name} by {stress_words(demand.crushing[block])} {unit}"
         return f"{pressed}, {stress_words(crushed)} times its compressive strength"
     use, stress, what = max((bent, demand.bending[block], "bending"), (split, demand.splitting[block], "splitting"))

@@ -18,6 +18,7 @@ from mbla.results.demand.bearings import bearings_of, greatest_pressure
 from mbla.results.demand.bending import tension_by_bending
 from mbla.results.demand.boxes import Boxes, boxes_of
 from mbla.results.demand.splitting import tension_by_splitting
+from mbla.results.demand.width import in_plane_axes, width_of
 from mbla.solution.solution import Mechanics
 
 
@@ -28,7 +29,7 @@ class Demand:
 
     bending   : tension in its sections, 0 without any
     splitting : tension across its struts, 0 without any
-    pressure  : even pressure on its joints, inf on an edge
+    pressure  : even pressure on its joints
     crushing  : the same on joints that carry more than the compressive strength of its material
     """
 
@@ -52,12 +53,13 @@ def demand_under(assembly: Assembly, acting: Acting) -> Demand:
     judged, boxes = standing_alone(model, contacts) & (model.soil_of_block < 0), _boxes(assembly)
     bearings = bearings_of(model, contacts, acting.contact_forces)
     actions = actions_on_blocks(model, contacts, acting, bearings)
-    everywhere = np.ones(len(contacts), dtype=bool)
+    everywhere, strengths = np.ones(len(contacts), dtype=bool), _strengths_of_joints(assembly)
+    beams = judged[:, None] & in_plane_axes(boxes.axes, _width(assembly, acting.load_case))
     return Demand(
-        tension_by_bending(model.blocks, boxes, contacts, actions, judged),
+        tension_by_bending(model.blocks, boxes, contacts, actions, beams),
         tension_by_splitting(model.blocks, boxes, contacts, bearings, judged),
-        greatest_pressure(contacts, bearings, judged, everywhere),
-        greatest_pressure(contacts, bearings, judged, _stronger_than_units(assembly)),
+        greatest_pressure(contacts, bearings, strengths, judged, everywhere),
+        greatest_pressure(contacts, bearings, strengths, judged, _stronger_than_units(assembly)),
     )
 
 
@@ -66,14 +68,25 @@ def _boxes(assembly: Assembly) -> Boxes:
     return boxes_of(assembly.model.blocks)
 
 
+@kept
+def _width(assembly: Assembly, load_case: LoadCase) -> FloatArray | None:
+    return width_of(assembly.model.of_case(load_case), assembly.contacts, load_case)
+
+
+def _strengths_of_joints(assembly: Assembly) -> FloatArray:
+    """Compressive strength of each interface, (n_interfaces,) Pa."""
+    contacts = assembly.contacts
+    of_joints = [assembly.model.joints[name].compressive_strength for name in contacts.joint_names]
+    return np.asarray(np.array(of_joints)[contacts.joints])
+
+
 def _stronger_than_units(assembly: Assembly) -> BoolArray:
     """Interfaces whose joint carries more than the material of one of their blocks, (n_interfaces,)."""
     model, contacts = assembly.model, assembly.contacts
     if model.blocks.strengths is None:
         return np.zeros(len(contacts), dtype=bool)
-    of_joints = np.array([model.joints[name].compressive_strength for name in contacts.joint_names])
     of_units = np.append(model.blocks.strengths[:, 1], np.full(len(model.grounds), np.inf))
-    return np.asarray(of_joints[contacts.joints] > of_units[contacts.bodies].min(axis=1))
+    return np.asarray(_strengths_of_joints(assembly) > of_units[contacts.bodies].min(axis=1))
 
 
 def strength_use(assembly: Assembly, demand: Demand) -> FloatArray:

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 
 from mbla.errors import Notice
 from mbla.model.model import Model
+from mbla.results.demand.cracking import cracking_notices
 from mbla.results.force_range import force_ranges_of
 from mbla.results.listing.answers import answer_columns, range_words, spread_over_positions, status_words, worst_words
 from mbla.results.listing.blocks import Block, Paragraph, paragraphs, table_of
@@ -42,6 +43,8 @@ def warning_summary(results: Results) -> list[Block]:
     """For the terminal: in full what the words of its case do not say, then all identifiers."""
     warnings = warnings_of(results)
     own = [notice for case in results.cases for notice in case_notices(case)]
+    detailed = [case for case in detailed_cases(results.cases) if result_of(case) is not None]
+    own += [notice for case in detailed for notice in cracking_notices(results.assembly, case)]
     listed = [notice for notice in warnings if not notice.case or notice in own]
     counts = Counter(warning.identifier for warning in warnings)
     named = ", ".join(name if count == 1 else f"{name} ({count})" for name, count in counts.items())

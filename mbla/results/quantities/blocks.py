@@ -219,7 +219,7 @@ Group[Demand](
         "greatest tension across its struts, likewise", "block", unit="stress", rule="open", attribute="splitting"
     ),
     joint_pressure=Field(
-        "greatest even pressure on its joints, likewise; inf: on an edge",
+        "greatest even pressure on its joints, likewise",
         "block",
         unit="stress",
         rule="open",

@@ -37,12 +37,12 @@ def _declare(name: str, attribute: str, words: str) -> None:
 
 _declare("bending_tension", "bending", "greatest tension of a unit by bending")
 _declare("splitting_tension", "splitting", "greatest tension across the struts of a unit")
-_declare("joint_pressure", "pressure", "greatest even pressure on the joints of a unit; null on an edge")
+_declare("joint_pressure", "pressure", "greatest even pressure on the joints of a unit")
 
 
 @UNIT_STRESS.key()
 def strength_use(scene: Scene) -> float | None:
-    """Greatest of these over the strength of the material; null where none is given, and on an edge."""
+    """Greatest of these over the strength of the material; null where none is given."""
     assert scene.demand is not None  # the owner
     return _greatest(scene, use_of(scene.assembly, scene.demand))[0]
 

@@ -12,14 +12,14 @@ import mbla
 from mbla.arrays import FloatArray
 from mbla.assembly.assembly import Assembly
 from mbla.results.demand.actions import Acting
-from mbla.results.demand.bearings import Bearings
+from mbla.results.demand.bearings import HINGE, Bearings
 from mbla.results.demand.cracking import cracking_notices, cracking_of
 from mbla.results.demand.demand import Demand, demand_of, demand_under, strength_use
 from mbla.results.demand.splitting import MOST, struts_of
 from mbla.results.listing.listing import case_section
 from mbla.results.listing.text import section_lines
 from mbla.results.outcome import notices_of
-from mbla.results.results import Results
+from mbla.results.results import CaseResult, Results
 from tests.line import line_of
 from tests.results.no_contacts import without_contacts
 from tests.results.synthetic import tower_results
@@ -126,7 +126,7 @@ def test_a_diagonal_strut_splits_a_unit() -> None:
     left, right = np.array([push, 0 * push, push, 0 * push]), np.array([0 * push, push, 0 * push, push])
     demand = on_a_cube(left, right)
     assert demand.splitting[1] == pytest.approx(2 * 6.0 / (np.pi * CUBE * CUBE * np.sqrt(2)), rel=1e-6)
-    assert np.isinf(demand.pressure[1])
+    assert demand.pressure[1] == pytest.approx(6.0 / np.sqrt(2) / (HINGE * CUBE**2))
 
 
 def test_an_even_pressure_brings_no_tension() -> None:
@@ -197,6 +197,7 @@ def test_a_unit_that_may_crack_is_warned_of_with_the_factor_at_which_it_does() -
     assert "1 unit may crack" in notice.message
     assert f"{cracking.factor:.4g}" in notice.message
     assert "1 unit may crack" in listed(results)
+    assert "Their forces are unique in this mechanism" in listed(results)
 
 
 def beside_soil(text: dict[str, Any], earth: dict[str, float]) -> Results:
@@ -228,16 +229,48 @@ def test_units_are_judged_beside_soil_and_cells_of_soil_are_not(earth: dict[str,
     assert np.isnan(demand_shown(results).bending[cells]).all()
 
 
+def test_forces_that_are_not_unique_are_told() -> None:
+    """A beam that slides on three supports."""
+    stone = {"stone": {"unit_weight": 10.0, "tensile_strength": 1e-6}}
+    text = deck([BEAM, pad(-SPAN / 2), pad(0.0), pad(SPAN / 2)], 10.0, materials=stone)
+    listing = listed(mbla.run("\n" + json.dumps(text)).records)
+    assert "1 unit may crack" in listing
+    assert "Other forces in balance may ask for less." in listing
+
+
 def test_a_unit_within_its_strength_is_not_warned_of() -> None:
     results = solved(tensile_strength=1.1 * float(demand_shown(solved()).bending[0]))
     assert cracking_of(results.assembly, results.cases[0]) is None
     assert "Within the strengths that are given" in listed(results)
 
 
-def test_an_edge_without_crushing_is_more_than_a_compressive_strength_carries() -> None:
-    results = solved(compressive_strength=1e6)
+def test_a_joint_without_a_compressive_strength_presses_on_a_tenth_of_it_at_least() -> None:
+    """The beam tips over the edge of a support whose joint is 2 m long."""
+    (case,) = solved().cases
+    assert case.solution.mechanics is not None
+    weight = 3.0 * 10.0 * THICKNESS * DEPTH + case.solution.mechanics.load_factor
+    pressure = weight / (HINGE * 2.0 * THICKNESS)
+    assert demand_shown(solved()).pressure[0] == pytest.approx(pressure, rel=1e-6)
+    assert cracking_of(*shown(solved(compressive_strength=1.1 * pressure))) is None
+    results = solved(compressive_strength=0.8 * pressure)
+    cracking = cracking_of(*shown(results))
+    assert cracking is not None
+    assert cracking.uses[0] == pytest.approx(1.25, rel=1e-6)
+    assert 0.5 * case.solution.mechanics.load_factor < cracking.factor < case.solution.mechanics.load_factor
     (notice,) = [each for each in notices_of(results) if each.identifier == "units-would-crack"]
-    assert "pressed on an edge" in notice.message
+    assert f"joints press beam[0] by {pressure:.3g} N/m^2, 1.25 times its compressive strength" in notice.message
+
+
+def test_a_joint_that_crushes_presses_by_no_more_than_its_strength() -> None:
+    both = OVERHANG | {"joints": {"dry": {"friction": 0.6, "compressive_strength": 1000.0}}}
+    results = mbla.run("\n" + json.dumps(both)).records
+    assert demand_shown(results).pressure[0] == pytest.approx(1000.0, rel=1e-3)
+    both["materials"] = {"stone": {"unit_weight": 10.0, "compressive_strength": 1000.0}}
+    assert cracking_of(*shown(mbla.run("\n" + json.dumps(both)).records)) is None
+
+
+def shown(results: Results) -> tuple[Assembly, CaseResult]:
+    return results.assembly, results.cases[0]
 
 
 def demand_shown(results: Results) -> Demand:

@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 
-from mbla.arrays import FloatArray
+from mbla.arrays import BoolArray, FloatArray
 from mbla.assembly.assembly import Assembly
-from mbla.questions.figures import significant
-from mbla.results.demand.cracking import Cracking, cracking_of, stress_words
+from mbla.model.wording import named
+from mbla.results.collapse.force_freedom import force_freedom
+from mbla.results.demand.bearings import HINGE
+from mbla.results.demand.cracking import Cracking, cracking_of, first_words, stress_words
 from mbla.results.demand.demand import Demand, demand_of
 from mbla.results.listing.blocks import MOST_ROWS, Block, Paragraph, table_of
 from mbla.results.listing.text import counted
-from mbla.results.outcome import result_of
+from mbla.results.outcome import dimension_of, result_of
 from mbla.results.results import CaseResult
 
 
@@ -31,16 +31,21 @@ def unit_blocks(assembly: Assembly, case: CaseResult) -> list[Block]:
         if np.nanmax(found) > 0.0
     ]
     says = f"Greatest tension in units by {' and by '.join(tension)}." if tension else "No unit is in tension."
-    if np.isinf(demand.pressure).any():
-        says += " Joints without a compressive strength press units on edges."
-    elif np.nanmax(demand.pressure) > 0.0:
-        says += f" Greatest pressure on their joints: {_greatest(assembly, demand.pressure)}."
+    if np.nanmax(demand.pressure) > 0.0:
+        says += f" Greatest pressure on their joints: {_greatest(assembly, demand.pressure)}{_spread_words(assembly)}."
     if assembly.model.blocks.strengths is None:
         return [Paragraph(f"{says} Not checked: no material has a tensile_strength.")]
     cracking = cracking_of(assembly, case)
     if cracking is None:
         return [Paragraph(f"{says} Within the strengths that are given.")]
-    return [Paragraph(f"{says} {_first_words(cracking)}"), *_table(assembly, demand, cracking)]
+    return [Paragraph(f"{says} {_may_words(assembly, case, cracking)}"), *_table(assembly, demand, cracking)]
+
+
+def _spread_words(assembly: Assembly) -> str:
+    """What is assumed of joints that bear any pressure on their edge."""
+    joints, contacts = assembly.model.joints, assembly.contacts
+    hard = any(np.isinf(joints[contacts.joint_names[law]].compressive_strength) for law in np.unique(contacts.joints))
+    return f"; a joint without a compressive strength presses on {100 * HINGE:g} % of it at least" * hard
 
 
 def _greatest(assembly: Assembly, found: FloatArray) -> str:
@@ -50,12 +55,28 @@ def _greatest(assembly: Assembly, found: FloatArray) -> str:
     return f"{stress_words(found[block])} {unit} ({assembly.model.blocks.name(block)})"
 
 
-def _first_words(cracking: Cracking) -> str:
-    """Where the first unit would crack."""
-    says = f"{counted(len(cracking.blocks), 'unit')} may crack"
-    if not math.isnan(cracking.factor):
-        says += f", with forces in proportion to the load the first at load factor {significant(cracking.factor, 4)}"
-    return f"{says}; other forces in balance may ask for less."
+def _may_words(assembly: Assembly, case: CaseResult, cracking: Cracking) -> str:
+    """How many units may crack, where the first would, and of which forces might ask for less."""
+    says = f"{counted(len(cracking.blocks), 'unit')} may crack; {first_words(cracking)}."
+    alone = cracking.blocks[_forces_unique(assembly, case)[cracking.blocks]]
+    if not len(alone):
+        return f"{says} Other forces in balance may ask for less."
+    if len(alone) == len(cracking.blocks):
+        return f"{says} Their forces are unique in this mechanism."
+    which = named(alone, assembly.model.blocks.name)
+    return f"{says} In this mechanism forces on {which} are unique; on the others those in balance may ask for less."
+
+
+def _forces_unique(assembly: Assembly, case: CaseResult) -> BoolArray:
+    """Blocks all of whose interfaces have unique resultants, (n_blocks,); none where that was not determined."""
+    mechanics, contacts = case.solution.mechanics, assembly.contacts
+    assert mechanics is not None  # a result
+    freedom = force_freedom(assembly.glued(case.load_case), mechanics, dimension_of((case,)))
+    unique = np.zeros(len(assembly.model.blocks) + len(assembly.model.grounds), dtype=bool)
+    if not isinstance(freedom, str):
+        unique[:] = True
+        unique[contacts.bodies[~freedom.determined]] = False
+    return unique[: len(assembly.model.blocks)]
 
 
 def _table(assembly: Assembly, demand: Demand, cracking: Cracking) -> list[Block]:

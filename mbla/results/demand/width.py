@@ -1,0 +1,42 @@
+"""The direction across the plane of a planar problem: the width, along which forces stand for as many side by side."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from mbla.arrays import BoolArray, FloatArray
+from mbla.contacts.contacts import Contacts
+from mbla.model.model import LoadCase, Model
+
+ROUNDING = 1e-6
+"""sine of an angle, and share of a length or a load, that count as none"""
+TINY = float(np.finfo(float).tiny)
+
+
+def width_of(model: Model, contacts: Contacts, load_case: LoadCase) -> FloatArray | None:
+    """Unit normal of the one plane that has the centroids of free blocks, joints edge-on and loads in it, (3,).
+
+    None where there is no such plane, and where there are several.
+    """
+    free = model.free
+    if not len(free):
+        return None
+    size = float(model.blocks.sizes[free].max())
+    offsets = model.blocks.centroids[free] - model.blocks.centroids[free].mean(axis=0)
+    rows, moments = [contacts.normals, offsets / size, model.ties.pulls], [np.zeros((1, 3))]
+    for load in (load_case.dead_load[free], load_case.live_load[free]):
+        most = float(np.linalg.norm(load[:, :3], axis=1).max())
+        rows.append(load[:, :3] / max(most, TINY))
+        moments.append(load[:, 3:] / max(most * size, TINY))
+    in_plane, about = np.concatenate(rows), np.concatenate(moments)
+    _, sizes, ways = np.linalg.svd(in_plane.T @ in_plane)
+    across, normal = sizes[1] > ROUNDING * sizes[0], ways[2]
+    off = max(np.abs(in_plane @ normal).max(), np.abs(about - np.outer(about @ normal, normal)).max())
+    return np.asarray(normal) if across and off <= ROUNDING else None
+
+
+def in_plane_axes(axes: FloatArray, width: FloatArray | None) -> BoolArray:
+    """Which axes of blocks, (n_blocks, 3, 3), run across the width; (n_blocks, 3), all where there is none."""
+    if width is None:
+        return np.ones(axes.shape[:2], dtype=bool)
+    return np.asarray(np.linalg.norm(np.cross(axes, width), axis=2) > ROUNDING)
