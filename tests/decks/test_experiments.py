@@ -9,6 +9,7 @@ import pytest
 
 import mbla
 from mbla.deck import read_deck
+from mbla.results.demand.cracking import cracking_of
 from tests.decks.experiments import MEASURED, cut_walls, mean_of
 from tests.decks.folder import DECKS
 
@@ -33,6 +34,18 @@ def test_the_table_has_the_figures_of_the_deck(name: str) -> None:
         assert float(found[2]) == pytest.approx(computed, abs=0.0051)
         off = 100 * (computed / measured - 1)
         assert float(found[3].replace("−", "-")) == pytest.approx(off, abs=0.11)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("name", MEASURED)
+def test_the_table_has_the_load_from_which_units_may_crack(name: str) -> None:
+    run = mbla.run(str(FOLDER / f"{name}.yaml"))
+    for case in run.records.cases:
+        found = cracking_of(run.records.assembly, case)
+        row = rf"\| {name} \| {case.load_case.name[1:]} \|(?:[^|]*\|){{3}} (–|[\d.]+) \|"
+        told = re.search(row, PAGE)
+        assert told is not None
+        assert told[1] == ("–" if found is None else f"{found.factor:.0f}")
 
 
 @pytest.mark.long

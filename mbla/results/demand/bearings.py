@@ -1,7 +1,8 @@
 """Bearings: the resultant of each pressed interface on each of its two bodies, and how far it may be spread.
 
 An even pressure whose middle is the centre of pressure reaches as far on either side of it as the interface does on the
-nearer one (Meyerhof 1953). It is the least concentrated that balance allows, and what joints that crush carry.
+nearer one, as in Meyerhof's effective area of footings. It is the least concentrated that balance allows, and what
+joints that crush carry.
 """
 
 from __future__ import annotations

@@ -1,14 +1,18 @@
 """Tension by splitting: struts in a block between the resultants on its faces.
 
 Two opposite forces P over a length D, spread along a line of length t, split what lies between them. In a disc the
-tension across the line is 2P/(π t D) all along it (Hertz; Timoshenko and Goodier, Theory of Elasticity, section 41;
-the Brazilian test of ISRM 1978 and ASTM D3967). Where a bearing has a width a it is (Tang 1994, J. Test. Eval. 22)::
+tension across the line is 2P/(π t D) all along it, by which the Brazilian test measures the tensile strength of stone
+(reviewed by García et al. 2017, doi:10.1007/s40069-017-0194-7). An even pressure on a width a is one of forces along
+chords at a distance x of the middle, each with a tension there of (2P/(π t D)) c (1 − 4 s²), s = 2x/D, c² = 1 − s²
+(Flamant's stresses of both and an even tension that leaves the edge free; tests/results/demand/test_disc.py), in the
+mean over the width::
 
     σ = 2P/(π t D) (1 − (a/D)²)^{3/2}
 
-D is the distance of the bearings, and no more than what the block has to both sides of the strut in its middle: two
-forces along one edge, and an even pressure on all of a face, split nothing. Lines are along the axis of the block along
-which the bearings are longest; t is the length of the shorter one, and at least D, as far as the block goes.
+A block is taken for a disc between its bearings. D is the distance of the bearings, and no more than what the block has
+to both sides of the strut in its middle: two forces along one edge, and an even pressure on all of a face, split
+nothing. Lines are along the axis of the block along which the bearings are longest; t is the length of the shorter one,
+and at least D, as far as the block goes.
 
 How the forces on a block meet inside of it is not unique either. Struts are taken in the order in which forces point
 along them, each as far as both forces go, so that what goes straight through is no diagonal.
