@@ -20,7 +20,7 @@ class AppliedLoad:
     on_masses : every mass on these blocks is accelerated: the forces are those of one acceleration, but for a pattern
     in_g      : that acceleration is the same for all, and the deck gives it in g
     follows   : in a pushover it turns with its block
-    at_point  : it is one force at one point of one block; others are spread over their blocks
+    at_point  : it is one force at one point of each block; others are spread over their blocks
     """
 
     blocks: IntArray

@@ -206,7 +206,8 @@ def _applied(position: TravelPosition, landed: Landed, footprint: LoadFootprint,
         words += f", first axle {position.distance:.6g} {units.length} along the path"
     off = sum(each is None for each in landed)
     words += f", {off} of {len(landed)} axles off the path" if off else ""
-    return AppliedLoad(blocks, wrenches, f"{' and '.join(each_on)}, {words}")
+    apart = not position.spread and len(blocks) == sum(len(each.blocks) for _, each in there)
+    return AppliedLoad(blocks, wrenches, f"{' and '.join(each_on)}, {words}", at_point=apart)
 
 
 def _blocks_in_words(landed: Spread, site: LoadSite) -> str:

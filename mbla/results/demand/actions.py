@@ -1,9 +1,10 @@
 """What acts on each block by itself: forces on its faces and at points, and the rest of its loads, spread over it.
 
 An interface that is pressed acts by its resultant, spread as evenly as balance allows (see
-:mod:`mbla.results.demand.bearings`); another one by its contact points. Ties and loads of kind ``force`` act at points.
-What balances all of these is spread evenly over the block: own weight and inertia, pressure and lines. Blocks whose
-balance is not known by itself have none: those that are glued to others, guided or fixed.
+:mod:`mbla.results.demand.bearings`); another one by its contact points. Ties, loads of kind ``force`` and axles without
+a width that stand on blocks of their own act at points. What balances all of these is spread evenly over the block: own
+weight and inertia, pressure and lines. Blocks whose balance is not known by itself have none: those that are glued to
+others, guided or fixed.
 """
 
 from __future__ import annotations

@@ -19,20 +19,19 @@ def width_of(model: Model, contacts: Contacts, load_case: LoadCase) -> FloatArra
     None where there is no such plane, and where there are several.
     """
     free = model.free
-    if not len(free):
+    if not len(free) or not len(contacts):
         return None
     size = float(model.blocks.sizes[free].max())
     offsets = model.blocks.centroids[free] - model.blocks.centroids[free].mean(axis=0)
-    rows, moments = [contacts.normals, offsets / size, model.ties.pulls], [np.zeros((1, 3))]
+    joints = (contacts.centroids - model.blocks.centroids[free].mean(axis=0)).mean(axis=0, keepdims=True)
+    rows = [contacts.normals, offsets / size, model.ties.pulls, joints / size]
     for load in (load_case.dead_load[free], load_case.live_load[free]):
-        most = float(np.linalg.norm(load[:, :3], axis=1).max())
-        rows.append(load[:, :3] / max(most, TINY))
-        moments.append(load[:, 3:] / max(most * size, TINY))
-    in_plane, about = np.concatenate(rows), np.concatenate(moments)
+        most = max(float(np.linalg.norm(load[:, :3], axis=1).max()), TINY)
+        rows += [load[:, :3] / most, *(np.cross(axis, load[:, 3:] / (most * size)) for axis in np.eye(3))]
+    in_plane = np.concatenate(rows)
     _, sizes, ways = np.linalg.svd(in_plane.T @ in_plane)
-    across, normal = sizes[1] > ROUNDING * sizes[0], ways[2]
-    off = max(np.abs(in_plane @ normal).max(), np.abs(about - np.outer(about @ normal, normal)).max())
-    return np.asarray(normal) if across and off <= ROUNDING else None
+    one, normal = sizes[1] > ROUNDING * sizes[0], ways[2]
+    return np.asarray(normal) if one and np.abs(in_plane @ normal).max() <= ROUNDING else None
 
 
 def in_plane_axes(axes: FloatArray, width: FloatArray | None) -> BoolArray:

@@ -209,7 +209,7 @@ Group[Demand](
 ).fields(
     Demand,
     bending_tension=Field(
-        "greatest tension of the unit by bending, 0 without any; nan: fixed, guided or glued to others",
+        "greatest tension of the unit by bending, 0 without any; nan: fixed, guided, glued to others, or of soil",
         "block",
         unit="stress",
         rule="open",
@@ -219,7 +219,7 @@ Group[Demand](
         "greatest tension across its struts, likewise", "block", unit="stress", rule="open", attribute="splitting"
     ),
     joint_pressure=Field(
-        "greatest even pressure on its joints, likewise",
+        "greatest even pressure on its joints, likewise; of one that does not crush over a tenth of it at least",
         "block",
         unit="stress",
         rule="open",

@@ -37,7 +37,11 @@ def _declare(name: str, attribute: str, words: str) -> None:
 
 _declare("bending_tension", "bending", "greatest tension of a unit by bending")
 _declare("splitting_tension", "splitting", "greatest tension across the struts of a unit")
-_declare("joint_pressure", "pressure", "greatest even pressure on the joints of a unit")
+_declare(
+    "joint_pressure",
+    "pressure",
+    "greatest even pressure on the joints of a unit; of one that does not crush over a tenth of it at least",
+)
 
 
 @UNIT_STRESS.key()
