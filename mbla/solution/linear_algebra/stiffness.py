@@ -30,6 +30,10 @@ from mbla.solution.linear_algebra.block_products import dense_rows, sets_of_alik
 from mbla.solution.linear_algebra.qdldl_factors import elimination_order
 from mbla.solution.linear_algebra.superlu import PIVOT_THRESHOLD, factors_on_the_diagonal
 
+LOOSE = 1
+"""Columns at most that hold nothing above the border. With more the matrix is singular; SuperLU finds that, too, but
+goes on, and may then call BLAS with a negative size, which prints a line of its own."""
+
 
 @dataclass(frozen=True)
 class PointGroup:
@@ -127,9 +131,15 @@ class Stiffness(Places):
         matrix = self._matrix(tangents, shift, fixed_load)
         for entries in further:
             matrix.data -= np.bincount(entries.place, entries.values, len(matrix.data))
-        finite = bool(np.isfinite(matrix.data).all())
-        factors = factors_on_the_diagonal(matrix, PIVOT_THRESHOLD) if finite else None
+        regular = bool(np.isfinite(matrix.data).all()) and len(self._loose_rows(matrix)) <= LOOSE
+        factors = factors_on_the_diagonal(matrix, PIVOT_THRESHOLD) if regular else None
         return None if factors is None else BorderedFactors(matrix, factors, self.order)
+
+    def _loose_rows(self, matrix: sp.csc_array) -> list[int]:
+        """Places whose column holds nothing above the border: of a block whose joints are all open."""
+        places = np.flatnonzero(matrix.data[self.diagonal] == 0.0)
+        columns = np.searchsorted(self.pointers, self.diagonal[places], side="right") - 1
+        return [each for each in columns if not matrix.data[self.pointers[each] : self.pointers[each + 1] - 1].any()]
 
     def _matrix(self, tangents: FloatArray, shift: FloatArray, fixed_load: bool) -> sp.csc_array:
         entries = np.zeros(len(self.indices))

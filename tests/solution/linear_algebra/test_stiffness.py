@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+import scipy.sparse.linalg as spla
 
 from mbla.program.program import Program
 from mbla.program.reductions import allowed_reductions, reduce_program
@@ -43,3 +44,20 @@ def test_a_matrix_without_stiffness_is_singular() -> None:
     program = programs()[1]
     nothing = np.zeros((program.n_points, 2, 2))
     assert stiffness_of(program).factorized(nothing, np.zeros(len(program.dead_load))) is None
+
+
+@pytest.mark.parametrize("program", programs(), ids=["spatial", "planar"])
+def test_where_a_block_has_open_joints_alone_the_matrix_is_singular_and_superlu_is_not_asked(
+    program: Program, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def asked(*_: object, **__: object) -> None:
+        raise AssertionError("SuperLU prints a line by BLAS of some matrices with empty columns")
+
+    monkeypatch.setattr(spla, "splu", asked)
+    width, c = len(program.dead_load) // len(program.facts.free), program.components
+    stiffness, touching = stiffness_of(program), abs(program.equilibrium_matrix)
+    for block in range(len(program.facts.free)):
+        rows = touching[block * width : (block + 1) * width]
+        open_there = np.any(np.asarray(rows.sum(axis=0)).reshape(-1, c), axis=1)
+        tangents = np.where(open_there.reshape(-1, 1, 1), 0.0, np.eye(c))
+        assert stiffness.factorized(tangents, np.zeros(len(program.dead_load))) is None
