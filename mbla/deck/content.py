@@ -184,6 +184,13 @@ def soils_of(deck: DeckContent) -> Iterator[tuple[KeyPath, Any]]:
     yield from ((("fill", name), fill) for name, fill in deck.fill.items() if fill.cells is not None)
 
 
+def with_flow_rule(deck: DeckContent) -> DeckContent:
+    """With the flow rule that holds by default: of soil of cells associative, whose load factor two bounds prove."""
+    if "flow_rule" in deck.analysis.model_fields_set or not any(soils_of(deck)):
+        return deck
+    return deck.model_copy(update={"analysis": deck.analysis.model_copy(update={"flow_rule": "associative"})})
+
+
 @rule(DeckContent)
 def soil_of_cells(deck: DeckContent) -> Iterator[Finding]:
     """Contacts of cells are found, and cells fit the blocks of the whole structure."""

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from mbla.deck.content import DeckContent, UnitsSection
+from mbla.deck.content import DeckContent, UnitsSection, with_flow_rule
 from mbla.deck.expressions import Parameters, is_expression
 from mbla.deck.groups import put_groups_in_place
 from mbla.deck.notices import notices_of
@@ -162,6 +162,7 @@ def _read(path: Path, files: tuple[Tree, Reading], overrides: Sequence[str], *, 
     faults += first_faults(parameter_faults(tree, None if faults else content))
     if content is None or faults:
         raise DeckError(list(dict.fromkeys(faults)))
+    content = with_flow_rule(content)
     return Deck(
         path=path,
         sources=tuple(

@@ -56,7 +56,8 @@ class AnalysisSection(Section):
         "non_associative",
         description="associative: sliding lifts by the friction angle; non_associative: sliding does not lift; "
         "dilatancy: sliding lifts by the dilatancy angle of each joint; livesley: associative, with a second "
-        "program that shows whether a mechanism without dilatancy has the same load factor",
+        "program that shows whether a mechanism without dilatancy has the same load factor; the default with soil of "
+        "cells is associative",
     )
     contact_model: Literal["concave", "convex"] = Field(
         "concave",

@@ -16,7 +16,14 @@ from mbla.results.listing.sections.assessment_words import assessment_words, cod
 from mbla.results.listing.sections.mechanism_words import description_of, mechanism_summary
 from mbla.results.listing.sections.pushover import curve_words, no_curve_words
 from mbla.results.listing.text import counted, lines_of, number
-from mbla.results.listing.verdict_words import bound_words, least_words, reasons, torsion_words, verdict
+from mbla.results.listing.verdict_words import (
+    bound_words,
+    least_words,
+    reasons,
+    soil_flow_words,
+    torsion_words,
+    verdict,
+)
 from mbla.results.outcome import case_notices, notices_of, result_of
 from mbla.results.results import CaseResult, Results
 from mbla.results.series import detailed_cases, series_of
@@ -105,5 +112,10 @@ def _in_words(results: Results, case: CaseResult) -> list[Block]:
         text += "" if found is None else f": {mechanism_summary(model, how.collapse, how.failure)}"
         details = how.sentences[:2] if found is None else how.sentences[1:2]
     said = (least_words(model, case), torsion_words(model, case), *details, *reasons(case), bound_words(model, case))
-    further = (*said, curve_words(model, case) or no_curve_words(case), assessment_words(case))
+    further = (
+        soil_flow_words(model, case),
+        *said,
+        curve_words(model, case) or no_curve_words(case),
+        assessment_words(case),
+    )
     return [Paragraph(text), *paragraphs(*further, detail=True)]

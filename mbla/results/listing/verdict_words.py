@@ -206,6 +206,18 @@ def uniqueness_words(model: Model, case: CaseResult) -> str:
     return f"Without normality other load factors may fit the joint law as well{above}."
 
 
+OF_SOIL = (
+    "by associative flow in soil and joints, between two proved bounds; with less dilatancy it is less, or the same "
+    "(flow_rule: dilatancy)"
+)
+
+
+def soil_flow_words(model: Model, case: CaseResult) -> str:
+    """What the figure of a structure with soil of cells is, where bounds prove it; nothing for others."""
+    flows = case.solution.flow_rule == "associative" and case.load_case.question.collapses
+    return OF_SOIL if model.soils and flows and case.status is Status.SOLVED else ""
+
+
 PUBLISHED = (
     "The published procedure starts from the associative forces and ends high among the load factors that fit the "
     "joint law, on the unsafe side."
@@ -216,6 +228,7 @@ def known_words(model: Model, case: CaseResult) -> list[str]:
     """Sentences on the quality of the figure, with the solver's own remarks."""
     published = PUBLISHED if case.solution.scheme == "published" and case.solution.mechanics is not None else ""
     texts = (
+        soil_flow_words(model, case),
         uniqueness_words(model, case),
         stiffness_words(model, case),
         least_words(model, case),

@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from mbla.deck import read_deck
 from mbla.model import build_model
 from mbla.model.soil.soil_mesh import SoilCorners, StrangeCornersError
 from mbla.process.run_options import RunOptions
@@ -123,11 +124,20 @@ supports:
   - {{ground: {{point: [1.6, 0, 0], normal: [-1, 0, 0]}}, blocks: backfill}}
 load_cases:
   active: {{settlement: {{on: wall, direction: [-1, 0, 0]}}}}
-analysis: {{flow_rule: associative}}
 output: {{vtu: false}}
 """
 RANKINE = 20.0 / 2.0 / 3.0
 """K_a γ h²/2 with K_a = tan²(45° − φ/2) = 1/3"""
+
+
+def test_soil_of_cells_flows_by_normality_unless_the_deck_says_otherwise(tmp_path: Path) -> None:
+    soil = deck(tmp_path, WALL, BACKFILL, supports=GROUND)
+    assert soil.analysis.flow_rule == "associative"
+    assert deck(tmp_path, WALL, supports=GROUND).analysis.flow_rule == "non_associative"
+    assert read_deck(soil.path, ["analysis.accuracy=draft"]).analysis.flow_rule == "non_associative"
+    soil = deck(tmp_path, WALL, BACKFILL, supports=GROUND)
+    assert read_deck(soil.path, ["analysis.accuracy=draft"]).analysis.flow_rule == "associative"
+    assert read_deck(soil.path, ["analysis.flow_rule=non_associative"]).analysis.flow_rule == "non_associative"
 
 
 def thrust(folder: Path, top: str, size: float) -> float:

@@ -6,11 +6,16 @@ from pathlib import Path
 
 import numpy as np
 
+import mbla
 from mbla.model.model import Model
 from mbla.results.listing.places import counted_blocks, counted_of, group_words
 from mbla.results.listing.sections.model_words import model_sections
+from mbla.results.listing.summary import summary_lines
 from mbla.results.listing.text import section_lines
+from mbla.results.listing.verdict_words import OF_SOIL, soil_flow_words
 from tests.model.soil.decks import ARCH, BACKFILL, GROUND, WALL, fill, model
+
+DECK = Path(__file__).parents[3] / "decks" / "tutorials" / "arch_in_soil.yaml"
 
 
 def test_counts_tell_soil_beside_blocks(tmp_path: Path) -> None:
@@ -47,6 +52,13 @@ def test_the_model_lists_soil_apart(tmp_path: Path) -> None:
     words = _words(model(tmp_path, WALL, BACKFILL, supports=GROUND))
     assert "1, of them 1 free and 0 fixed" in words
     assert "joint law backfill, to other blocks" in " ".join(words.split())
+
+
+def test_the_figure_of_soil_is_told_as_that_of_associative_flow() -> None:
+    by_bounds, by_path = (mbla.run(DECK, set=each).records for each in ([], ["analysis.flow_rule=non_associative"]))
+    assert soil_flow_words(by_bounds.model, by_bounds.cases[0]) == OF_SOIL
+    assert OF_SOIL[:40] in "\n".join(summary_lines(by_bounds))
+    assert not soil_flow_words(by_path.model, by_path.cases[0])
 
 
 def _words(found: Model) -> str:
