@@ -22,6 +22,7 @@ from functools import partial
 import numpy as np
 
 from mbla.solution.flow.peak_step import EXACT, PeakStep, centred, solved_peak
+from mbla.solution.flow.renewed_springs import renewed_springs
 from mbla.solution.law.elastic_joints import ElasticJoints, Memory, StepState
 from mbla.solution.law.exact_law import forces_by_law
 from mbla.solution.law.joint_equations import JointStep, residual_of
@@ -59,9 +60,8 @@ BALANCED, COMPATIBLE, EVEN = 1e-6, 1e-6, 30.0
 """Unbalanced force in mean loads of a block, incompatible velocity over the largest, and largest product N y over that
 wanted, with which a state is taken."""
 
-NEARBY = 1e-6
-"""Products over n₀² with which a way from a state nearby begins, on the central path of its forces; where interfaces
-have a law of their own, from the state itself: forces cut back within its bounds do not balance."""
+SMALL = 1e-12
+"""Products over n₀² with which a state by renewed springs is taken at most."""
 
 CARRIED, STANDS = 1e-6, 2e-5
 """Greatest force of the springs of a structure that stands: of a block over its load, and, where interfaces have a law
@@ -132,7 +132,24 @@ def gravity_step(joints: ElasticJoints, least_force: float = 0.0) -> Gravity:
             spent += more
             settled = carried = sharp.is_solved and _is_carried(joints, sharp.state)
             state, step = (sharp.state, weaker) if carried else (state, step)
+    if not settled:
+        first = replace(step, held=HELD[-1] * joints.matrix.size)
+        found = renewed_springs(first, lambda *by: _solved(by[0], force, by[1])[:3], partial(_rest, force=force))
+        spent += found.spent
+        if found.state is not None:
+            return _at_rest(found.step, found.state, force, spent)
     return replace(_at_rest(step, state, force, spent), settled=settled, carried=carried)
+
+
+def _rest(step: JointStep, state: StepState, force: float) -> tuple[StepState | None, int]:
+    """The state at rest near one in which springs carry nothing, None where they carry a share; factorisations."""
+    joints = step.joints
+    if not _is_carried(joints, state):
+        return None, 0
+    good = partial(_carries, least=SMALL * force**2)
+    enough = (lambda found: found.misfit <= EXACT) if joints.laws else good
+    sharp, spent = solved_peak(PeakStep(step, LEAST * force**2, state, 0.0), force, enough, good)
+    return (sharp.state if sharp.is_solved and _is_carried(joints, sharp.state) else None), spent
 
 
 def _of_points(joints: ElasticJoints, least_force: float) -> tuple[StepState | None, int]:
@@ -207,14 +224,8 @@ def _solved(
     """
     sigma, spent, blocked, fall = force**2, 0, 0, FALL
     least = LEAST * force**2
-    state, nearer = near, list(NEAR)
-    if state is None:
-        state = _start(step.joints, force, sigma)
-    elif step.joints.laws:
-        sigma = least
-    else:
-        sigma = NEARBY * sigma
-        state = centred(step.joints, state, sigma, 0.95)
+    nearer = list(NEAR)
+    state, sigma = (_start(step.joints, force, sigma), sigma) if near is None else (near, least)
     while True:
         residual = residual_of(step, state)
         even = float(residual.products.normal.max(initial=0.0)) < EVEN * sigma

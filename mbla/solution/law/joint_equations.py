@@ -19,7 +19,8 @@ class JointStep:
     length : h
     driven : whether the live work f_L·u is given; else the load factor stays and the structure finds its rest
     work   : that work: 1, or 0 of a support that is held
-    held   : (n_rows,) stiffness of springs that hold the blocks where they are; default: none
+    held   : (n_rows,) stiffness of springs that hold the blocks; default: none
+    holds_at : (n_rows,) velocities with which these carry nothing
     """
 
     joints: ElasticJoints
@@ -28,6 +29,7 @@ class JointStep:
     driven: bool = True
     work: float = 1.0
     held: FloatArray | float = 0.0
+    holds_at: FloatArray | float = 0.0
 
     @cached_property
     def normal_compliance(self) -> FloatArray:
@@ -40,9 +42,9 @@ class JointStep:
         return 1.0 / (self.joints.shear * self.length)
 
     def balance(self, state: StepState) -> FloatArray:
-        """A x + f_D + λ f_L − ε u, and f_L·u − w, which is 0 where the load factor stays; (n_rows + 1,)."""
+        """A x + f_D + λ f_L − ε (u − ū), and f_L·u − w, which is 0 where the load factor stays; (n_rows + 1,)."""
         work = float(self.joints.program.live_load @ state.u) - self.work if self.driven else 0.0
-        return np.append(self.joints.unbalanced(state) - self.held * state.u, work)
+        return np.append(self.joints.unbalanced(state) - self.held * (state.u - self.holds_at), work)
 
     def openings(self, state: StepState, velocities: FloatArray) -> FloatArray:
         """Openings y of a state by the velocities of its contacts and its normal forces, (n_points,)."""

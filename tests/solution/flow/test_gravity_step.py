@@ -52,3 +52,29 @@ def test_structures_that_were_blocked_with_small_products(deck: str, name: str) 
     gravity = gravity_step(ElasticJoints.of(program, shares_of(program), 0.4))
     assert gravity.carried
     assert gravity.steps < 100
+
+
+SOIL = """\
+mbla: 1
+units: {force: kN}
+parameters: {size: 0.35}
+materials: {stone: {density: 1800}, earth: {density: 2040}}
+joints: {dry: {friction: 0.6}}
+blocks:
+  - arch:
+      {group: arch, material: stone, shape: segmental, span: 6.55, rise: 1.428, thickness: 0.22, voussoirs: 41,
+       width: 3.8, springers: ground}
+contacts: {joint: dry}
+fill:
+  soil:
+    {on: arch, material: earth, level: 1.813, cells: {size: "=size", beyond: 3}, friction_angle: 30, cohesion: 5}
+load_cases: {push: {live: [{acceleration: [0, 0, -1], on: arch}]}}
+"""
+
+
+@pytest.mark.parametrize(("size", "ratio"), [(0.35, 1.0), (0.33, 0.4)])
+def test_soil_of_cells_comes_to_rest_where_many_of_them_slide(size: float, ratio: float) -> None:
+    """Springs that carry nothing leave such equations nearly singular: some are solved by springs that are renewed."""
+    gravity = rest_of(line_of(SOIL, f"parameters.size={size}"), ratio)
+    assert gravity.settled
+    assert gravity.carried
