@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
-from mbla.deck.content import DeckContent
+from mbla.deck.content import DeckContent, soils_of
 from mbla.deck.sections.assessment import LIMIT_STATES, SpectrumSection
 from mbla.deck.sections.load_cases import supports_of
 from mbla.deck.sections.loads import Load
@@ -73,6 +73,8 @@ CRUSHING = Usual(
     STRESSES,
     "5 MPa",
 )
+SOIL_ANGLE = Usual(1.0, 60.0, "is in degrees, and that of soil is 15 to 45, or 0 where it is sheared undrained")
+SOIL_COHESION = Usual("100 Pa", "1 MPa", "and that of soil is 0 to 300 kPa", "stress", STRESSES, "10 kPa")
 STEP, PATH = (
     Usual(0.0, most, "a displacement no structure survives", "length", ("mm", "cm"), "100 mm")
     for most in ("10 m", "100 m")
@@ -100,6 +102,8 @@ USUAL: dict[str, dict[str, Usual]] = {
         "tensile_strength": MORTAR,
         "compressive_strength": CRUSHING,
     },
+    "soil": {"friction_angle": SOIL_ANGLE, "cohesion": SOIL_COHESION, "tensile_strength": SOIL_COHESION},
+    "sheared_soil": {"friction_angle": SOIL_ANGLE, "cohesion": SOIL_COHESION},
     "ties": {
         "strength": Usual("100 kPa", "100 GPa", "and that of steel is 200 to 2000 MPa", "stress", STRESSES, "300 MPa"),
         "area": Usual("0.01 mm^2", "2 m^2", "which no tie or strut has", "area", ("mm^2", "cm^2", "m^2"), "400 mm^2"),
@@ -156,6 +160,12 @@ def _places(content: DeckContent) -> Iterator[tuple[KeyPath, str, Any]]:
     for section in ("materials", "joints"):
         for name, item in getattr(content, section).items():
             yield (section, name), section, item
+    for path, soil in soils_of(content):
+        yield path, "soil", soil
+        yield (*path, "wall"), "sheared_soil", soil.wall
+    for name, fill in content.fill.items():
+        if fill.passive is not None:
+            yield ("fill", name, "passive"), "sheared_soil", fill.passive
     for number, tie in enumerate(content.ties):
         yield ("ties", number), "ties", tie
         if tie.plate is not None:

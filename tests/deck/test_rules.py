@@ -236,6 +236,33 @@ def test_values_that_are_mostly_meant_in_another_unit(usual: str, unusual: str, 
     assert re.search(".*".join(map(re.escape, words.split(".*"))), notice)
 
 
+@pytest.mark.parametrize(
+    ("usual", "unusual", "words"),
+    [
+        ("friction_angle: 30,", "friction_angle: 0.52,", "friction_angle = 0.52: is in degrees, and that of soil"),
+        ("friction_angle: 30,", "friction_angle: 70,", "friction_angle = 70: is in degrees, and that of soil"),
+        ("wall: {}", "wall: {friction_angle: 0.35}", "wall.friction_angle = 0.35: is in degrees"),
+        ("cohesion: 5 kPa", "cohesion: 5 MPa", "cohesion = 5 MPa: is 5e+06 N/m^2, and that of soil is 0 to 300 kPa"),
+        ("cohesion: 5 kPa", "cohesion: 5", 'cohesion = 5: is 5 N/m^2, .*; "5 kPa" may be meant'),
+        ("{mobilisation: 1}", "{friction_angle: 0.5, mobilisation: 1}", "passive.friction_angle = 0.5: is in degrees"),
+    ],
+)
+def test_values_of_soil_that_are_mostly_meant_in_another_unit(
+    usual: str, unusual: str, words: str, tmp_path: Path
+) -> None:
+    text = BLOCK + (
+        "fill:\n"
+        "  clay: {on: block, material: stone, level: 2, cells: {size: 1}, friction_angle: 30, cohesion: 5 kPa, "
+        "wall: {}}\n"
+        "  ballast: {on: block, material: stone, level: 2, passive: {mobilisation: 1}}\n"
+    )
+    assert usual in text
+    assert [notice for notice in notices(tmp_path, text) if "unusual" in notice] == []
+    (notice,) = (notice for notice in notices(tmp_path, text.replace(usual, unusual)) if "unusual" in notice)
+    assert notice.startswith("warning [value-unusual]: deck.yaml:")
+    assert re.search(".*".join(map(re.escape, words.split(".*"))), notice)
+
+
 def test_names_that_nothing_uses(tmp_path: Path) -> None:
     text = changed("{mu: 0.6}", "{mu: 0.6, nu: 1, xi: '=nu'}").replace(
         "joints:\n", "  brick: {density: 1000}\njoints:\n  wet: {friction: 1}\n"

@@ -109,7 +109,6 @@ class Fill(Section):
 
 OF_CELLS = ("friction_angle", "cohesion", "tensile_strength", "dilatancy", "wall")
 OF_MASSES = ("dispersal", "passive")
-rule(Fill)(soil_strengths)
 
 
 @rule(Fill)
@@ -122,6 +121,13 @@ def mass_or_cells(fill: Fill) -> Iterator[Finding]:
     for key in without:
         if key in fill.model_fields_set:
             yield Finding("key-of-another-choice", words, key)
+
+
+@rule(Fill)
+def strengths_of_cells(fill: Fill) -> Iterator[Finding]:
+    """Those of soil, where it is cells."""
+    if fill.cells is not None:
+        yield from soil_strengths(fill)
 
 
 @rule(Passive)

@@ -43,9 +43,9 @@ class SoilWall(Section):
     """Joint law between soil and the blocks that it lies on or behind."""
 
     friction_angle: FrictionAngle | None = Field(
-        None, description="default: two thirds of that of the soil, EN 1997-1, 9.5.1(6)"
+        None, description="at most that of the soil; default: two thirds of it, EN 1997-1, 9.5.1(6)"
     )
-    cohesion: NonNegativeStress = Field(0.0, description="adhesion")
+    cohesion: NonNegativeStress = Field(0.0, description="adhesion, at most the cohesion of the soil")
 
 
 class SoilKeys(Protocol):
@@ -59,12 +59,23 @@ class SoilKeys(Protocol):
     def tensile_strength(self) -> float: ...  # noqa: D102
     @property
     def dilatancy(self) -> float: ...  # noqa: D102
+    @property
+    def wall(self) -> SoilWall: ...  # noqa: D102
 
 
 def soil_strengths(soil: SoilKeys) -> Iterator[Finding]:
-    """Dilatancy at most the friction angle, and a friction cone that is open at the tensile strength."""
+    """Dilatancy at most the friction angle, a friction cone that is open at the tensile strength, and no wall rougher
+    than the soil, which would slip within itself beside it: δ <= φ, EN 1997-1, 9.5.1(7), and adhesion <= c.
+    """
     if soil.friction_angle is None:
         return
+    beside = "which slips within itself beside a rougher wall"
+    if (soil.wall.friction_angle or 0.0) > soil.friction_angle * (1 + ROUNDING):
+        words = f"must be <= {soil.friction_angle:.6g} degrees, the friction angle of the soil, {beside}"
+        yield Finding("out-of-bounds", words, "wall", "friction_angle")
+    if soil.wall.cohesion > soil.cohesion * (1 + ROUNDING):
+        words = f"must be <= {soil.cohesion:.6g}, the cohesion of the soil, {beside}"
+        yield Finding("out-of-bounds", words, "wall", "cohesion")
     if soil.dilatancy > soil.friction_angle * (1 + ROUNDING):
         yield Finding("out-of-bounds", f"must be <= {soil.friction_angle:.6g} degrees, the friction angle", "dilatancy")
     friction = math.tan(math.radians(soil.friction_angle))
