@@ -134,14 +134,16 @@ def bridge_parts(bridge: BridgeItem) -> Iterator[Finding]:
             words = "applies to a bridge with spandrels: leave it out, or write spandrels: full or edges"
             yield Finding("key-of-another-choice", words, key)
         return
-    for key in OF_SPANDRELS:
-        if not given(bridge, (key,)):
-            yield Finding("missing-key", f"needs {key} for spandrels: {bridge.spandrels}")
+    chosen = "spandrels" in bridge.model_fields_set
+    needed = OF_SPANDRELS if bridge.spandrels == "full" else (*OF_SPANDRELS, "spandrel_thickness")
+    missing = [key for key in needed if not given(bridge, (key,))]
+    if missing:
+        default = "" if chosen else ", the default; spandrels: none builds bare arches"
+        yield Finding("missing-key", f"needs {' and '.join(missing)} for spandrels: {bridge.spandrels}{default}")
     if bridge.spandrels == "full":
-        for key in given(bridge, OF_EDGES):
-            yield Finding("key-of-another-choice", "applies to spandrels: edges only", key)
-    elif bridge.spandrel_thickness is None:
-        yield Finding("missing-key", "needs spandrel_thickness for spandrels: edges")
+        default = "" if chosen else ", and the default is full: write spandrels: edges, or leave it out"
+        for key in given(bridge, OF_EDGES)[: None if chosen else 1]:
+            yield Finding("key-of-another-choice", f"applies to spandrels: edges only{default}", key)
 
 
 @rule(BridgeItem)

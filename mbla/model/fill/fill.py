@@ -22,6 +22,7 @@ from mbla.deck.sections.fill import Dispersal, Fill, Passive
 from mbla.deck.units import Units
 from mbla.errors import Finding, Notice
 from mbla.model.selectors import BlockSelection, select_blocks
+from mbla.model.soil.names import is_cell, named_with_soil
 from mbla.model.solids.blocks import NO_MASSES, Blocks, PointMasses, joined_masses
 from mbla.model.solids.plane import cut, unit
 from mbla.model.solids.polygons import Polygons, polygons_from_loops, triangles
@@ -139,13 +140,18 @@ def build_fill(
         if chosen is None:
             continue
         weight = densities[section.material] * units.standard_gravity * units.force_per_mass_acceleration
-        body = _body(name, section, weight, chosen, blocks, tolerance)
+        every = np.ones(len(blocks), dtype=bool)
+        body = _body(name, section, weight, chosen, blocks, every, tolerance)
         own = columns(body, blocks)
         if len(own.rows):
             _refuse_twice(body, own, found, selection)
             found[name] = body, own
         elif not selection.partial:
+            without = _body(name, section, weight, chosen, blocks, ~is_cell(blocks), tolerance)
             message = "lies on nothing: no free upward face of these blocks is below its top; look at on and its top"
+            if len(columns(without, blocks).rows):
+                soils = named_with_soil(np.flatnonzero(is_cell(blocks)), blocks)
+                message = f"lies where the cells of {soils} are: leave one of them out, or name that soil under on"
             selection.refuse(Finding("fill-on-nothing", message, "fill", name))
         if len(own.rows) and fixed[own.blocks].all() and not fixed.all():
             where = named(np.unique(own.blocks), blocks.name)
@@ -175,15 +181,26 @@ def _refuse_twice(
 
 def _in_words(section: Fill, body: FillBody, own: Columns, units: Units, blocks: Blocks) -> str:
     under = np.unique(own.blocks)
-    groups = list(dict.fromkeys(blocks.groups[block] for block in under.tolist()))
+    cells = is_cell(blocks)[under]
+    groups = list(dict.fromkeys(blocks.groups[block] for block in under[~cells].tolist()))
+    stands = [f"{counted(int((~cells).sum()), 'block')} of {', '.join(groups)}"] if groups else []
+    stands += [named_with_soil(under[cells], blocks)] if cells.any() else []
     where = f"z = {section.level:.6g} {units.length}" if section.level is not None else "its sloping top"
     depths = f"{own.depths.min():.4g} to {own.depths.max():.4g} {units.length} deep"
     weight = f"weight {body.unit_weight * float(own.volumes.sum()):.6g} {units.force}"
-    place = f"on {counted(len(under), 'block')} of {', '.join(groups)}"
-    return f"{body.name}: {section.material} below {where}, {depths} {place}; {weight}"
+    return f"{body.name}: {section.material} below {where}, {depths} on {' and '.join(stands)}; {weight}"
 
 
-def _body(name: str, section: Fill, unit_weight: float, chosen: IntArray, blocks: Blocks, tolerance: float) -> FillBody:
+def _body(
+    name: str,
+    section: Fill,
+    unit_weight: float,
+    chosen: IntArray,
+    blocks: Blocks,
+    covering: BoolArray,
+    tolerance: float,
+) -> FillBody:
+    """The fill on chosen blocks, below no block of those that may cover it, (n_blocks,)."""
     if section.surface is None:
         point, normal = np.array([0.0, 0.0, section.level]), np.array([0.0, 0.0, 1.0])
     else:
@@ -194,7 +211,8 @@ def _body(name: str, section: Fill, unit_weight: float, chosen: IntArray, blocks
     )
     faces = items_of_rows(blocks.face_start, chosen)
     faces = faces[blocks.face_normals[faces, 2] > UPWARD]
-    triangles, row = _free_triangles(faces, body, blocks, tolerance)
+    over = np.flatnonzero((blocks.face_normals[:, 2] < -UPWARD) & covering[blocks.block_of_face])
+    triangles, row = _free_triangles(faces, over, body, blocks, tolerance)
     return replace(body, triangles=triangles, blocks=blocks.block_of_face[faces[row]], faces=faces[row])
 
 
@@ -213,8 +231,10 @@ def _heights(faces: IntArray, points: FloatArray, blocks: Blocks) -> FloatArray:
     return np.asarray(first[:, 2].reshape(shape[:-1]) - (away * slope).sum(axis=-1))
 
 
-def _free_triangles(faces: IntArray, body: FillBody, blocks: Blocks, tolerance: float) -> tuple[FloatArray, IntArray]:
-    """What of upward faces (n,) no other face covers below the top: triangles (m, 3, 3), and their faces' rows (m,).
+def _free_triangles(
+    faces: IntArray, over: IntArray, body: FillBody, blocks: Blocks, tolerance: float
+) -> tuple[FloatArray, IntArray]:
+    """What of upward faces (n,) none of others (k,) covers below the top: triangles (m, 3, 3), their faces' rows (m,).
 
     A face above covers what lies under it, from contact, within the tolerance, up to the top surface.
     """
@@ -222,7 +242,6 @@ def _free_triangles(faces: IntArray, body: FillBody, blocks: Blocks, tolerance: 
         return np.empty((0, 3, 3)), np.empty(0, np.int64)
     plans = _plans(faces, blocks)
     areas = shapely.area(plans)
-    over = np.flatnonzero(blocks.face_normals[:, 2] < -UPWARD)
     shadows = _plans(over, blocks)
     mine, other = shapely.STRtree(shadows).query(plans, predicate="intersects")
     reach = tolerance * blocks.sizes[blocks.block_of_face[faces]]

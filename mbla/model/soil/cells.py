@@ -6,8 +6,10 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
+import shapely
 
 from mbla.arrays import FloatArray
+from mbla.deck.section import ROUNDING
 from mbla.deck.sections.fill import Fill
 from mbla.deck.sections.soil import SHARE_OF_WALL, laws_of_soil
 from mbla.errors import Finding
@@ -37,16 +39,31 @@ class Soil:
 
 
 def mesh_of(region: Region, size: float) -> PlaneMesh:
-    """Triangles of about a size in a region; raises ItemRefused where these are too many, or none fit."""
+    """Triangles of about a size in a region; raises ItemRefused where that is larger than it, these are too many, or
+    none fit.
+    """
+    left, low, right, high = shapely.total_bounds(region.polygons)
+    long = max(right - left, high - low)
+    if size > long * (1 + ROUNDING):
+        words = f"must be <= {long:.6g}, the greatest extent of the soil: cells are a small part of it"
+        raise ItemRefused(Finding("out-of-bounds", words, "cells", "size"))
     about = region.area / (AREA * size**2)
     if about > MOST:
-        words = f"makes about {min(about, 1e300):.0e} cells; at most {MOST:,} can be handled"
+        makes = f"makes {_rounded_up(about):,.0f} cells" if about < 1e12 else "makes more than 1,000,000,000,000 cells"
+        least = _rounded_up(math.sqrt(region.area / (AREA * MOST)))
+        words = f"{makes}, about; at most {MOST:,} can be handled: must be >= {least:.2g}"
         raise ItemRefused(Finding("too-many-units", words, "cells", "size"))
     try:
         return triangulate(region.polygons, CellSize(size, region.bearings))
     except NotConformingError:
         words = "cannot be divided into cells: two edges of its outline meet at nearly no angle"
         raise ItemRefused(Finding("soil-region", words)) from None
+
+
+def _rounded_up(value: float) -> float:
+    """To two digits."""
+    unit = 10.0 ** (math.floor(math.log10(value)) - 1)
+    return math.ceil(value / unit) * unit
 
 
 def build_soil(

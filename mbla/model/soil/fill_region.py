@@ -16,6 +16,7 @@ from mbla.arrays import FloatArray, IntArray
 from mbla.deck.sections.fill import Fill
 from mbla.errors import Finding
 from mbla.model.blocks.generated import ItemRefused
+from mbla.model.soil.names import is_cell, named_with_soil
 from mbla.model.soil.plane import SQUARE, Sections, plane_of_prisms, sections_of
 from mbla.model.soil.region import HeldEdge, Region, beside, overlapping, polygons_of, with_bearings, with_corners
 from mbla.model.solids.blocks import Blocks
@@ -26,6 +27,7 @@ ROUNDING = 1e-3
 """share of the tolerance to which overlays of outlines are rounded"""
 SPANDREL = 0.5
 """least share of the region, seen from the side, that walls along a face of it take up"""
+ONE_SOIL = "leave one of them out, or lay them on other blocks"
 ON = "name under `on` all that it lies on and that bounds it"
 
 
@@ -159,8 +161,9 @@ def _between_walls(region: Region, blocks: Blocks, chosen: IntArray, tolerance: 
             elif len(wall):
                 extent[side] = others.extents[wall, 1].max() if side == 0 else others.extents[wall, 0].min()
     if len(strange) or extent[1] - extent[0] <= reach.min():
-        where = named(np.unique(others.blocks[strange if len(strange) else rows]), blocks.name)
-        raise ItemRefused(Finding("soil-region", f"overlaps {where}: {ON}", "on"))
+        which = np.unique(others.blocks[strange if len(strange) else rows])
+        remedy = ONE_SOIL if is_cell(blocks)[which].all() else ON
+        raise ItemRefused(Finding("soil-region", f"overlaps {named_with_soil(which, blocks)}: {remedy}", "on"))
     return replace(region, extent=extent)
 
 

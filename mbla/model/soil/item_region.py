@@ -9,11 +9,11 @@ from mbla.arrays import IntArray
 from mbla.errors import Finding
 from mbla.model.blocks.generated import ItemRefused
 from mbla.model.blocks.soil import SoilItem
+from mbla.model.soil.names import named_with_soil
 from mbla.model.soil.region import Region, beside, overlapping, with_bearings, with_corners
 from mbla.model.solids.blocks import Blocks
 from mbla.model.solids.polyhedra import in_space
 from mbla.model.transform import IDENTITY, build_transform
-from mbla.model.wording import named
 
 NO_BLOCKS: IntArray = np.empty(0, dtype=np.int64)
 
@@ -41,7 +41,7 @@ def item_region(item: SoilItem, blocks: Blocks, tolerance: float) -> Region:
     others = beside(region, blocks, NO_BLOCKS, tolerance)
     rows = overlapping(region, others, tolerance)
     if len(rows):
-        where = named(np.unique(others.blocks[rows]), blocks.name)
-        words = f"overlaps {where}: soil ends where blocks begin"
+        which = named_with_soil(np.unique(others.blocks[rows]), blocks)
+        words = f"overlaps {which}: soil ends where blocks and other soil begin"
         raise ItemRefused(Finding("soil-region", words, "outline"))
     return with_bearings(with_corners(region, blocks, others.blocks, tolerance), others, tolerance)

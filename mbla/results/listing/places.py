@@ -8,7 +8,9 @@ import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
 from mbla.deck.sections.selectors import POSITIONS
+from mbla.deck.sections.soil import SOIL
 from mbla.model.model import Model
+from mbla.model.soil.names import soil_name
 from mbla.model.solids.blocks import BlockLabels
 from mbla.results.listing.text import counted, vector
 
@@ -42,7 +44,7 @@ def group_words(model: Model, blocks: IntArray) -> str:
 def soil_words(model: Model, rows: IntArray) -> str:
     """``soil`` where it is called that or there are several, else ``soil road``; rows (n,) of ``model.soils``."""
     names = {model.soils[row].name for row in rows.tolist()}
-    return "soil" if len(names) > 1 or names == {"soil"} else f"soil {names.pop()}"
+    return SOIL if len(names) > 1 else soil_name(names.pop())
 
 
 def block_words(model: Model, block: int) -> str:

@@ -98,8 +98,8 @@ def test_more_cells_than_can_be_handled_are_refused(tmp_path: Path) -> None:
     assert "at most 100,000" in words
 
 
-def test_one_cell_larger_than_the_region(tmp_path: Path) -> None:
-    triangle = BACKFILL.replace("[1.6, 1], [0, 1]", "[0, 1]").replace("size: 0.3", "size: 100")
+def test_one_cell_as_large_as_the_region(tmp_path: Path) -> None:
+    triangle = BACKFILL.replace("[1.6, 1], [0, 1]", "[0, 1]").replace("size: 0.3", "size: 1.6")
     assert len(model(tmp_path, triangle, supports=GROUND).blocks) == 1
 
 
@@ -151,7 +151,7 @@ def thrust(folder: Path, top: str, size: float) -> float:
 
 def test_active_pressure_where_cells_have_its_slip_line(tmp_path: Path) -> None:
     """A wedge at 45° + φ/2 = 60° is a cell."""
-    assert thrust(tmp_path, ", [0.57735026919, 1]", 5.0) == pytest.approx(RANKINE, rel=1e-8)
+    assert thrust(tmp_path, ", [0.57735026919, 1]", 1.6) == pytest.approx(RANKINE, rel=1e-8)
 
 
 def test_active_pressure_from_below_where_they_have_not(tmp_path: Path) -> None:
@@ -165,3 +165,14 @@ def test_cells_are_smaller_under_a_footing_and_not_behind_a_wall(tmp_path: Path)
     under = on_top & (soil.points[:, 0] > 0.4 - 1e-9) & (soil.points[:, 0] < 0.9 + 1e-9)
     behind = np.abs(soil.points[:, 0]) < 1e-12
     assert (under.sum(), behind.sum()) == (5, 4)
+
+
+def test_a_mass_on_cells(tmp_path: Path) -> None:
+    """A fill that is a mass may lie on soil, and is told to."""
+    both = fill()[: fill().rindex("}")] + ", road: {on: soil, material: earth, level: 1.6}}"
+    carried = model(tmp_path, ARCH, fill=both).fill
+    assert carried is not None
+    (words,) = carried.words
+    assert " on soil; weight" in words
+    ((key, refusal),) = refused(tmp_path, ARCH, fill=both.replace("on: soil", "on: arch"))
+    assert (key, refusal.split(":")[0]) == ("fill.road", "lies where the cells of soil are")

@@ -102,7 +102,7 @@ def _size(model: Model) -> list[Fact]:
         mass = f"{number(float(others.sum()))} {units.mass} on {counted(added, 'block')}"
         rows.append(Fact("added masses", f"{mass}; they count to the weights"))
     if model.fill is not None:
-        counts = "its mass moves with the blocks under it and counts to their weights"
+        counts = "its mass moves with what it lies on and counts to the weight of that"
         rows += [Fact("fill", f"{words}; {counts}") for words in model.fill.words]
     return rows
 

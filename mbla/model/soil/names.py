@@ -1,0 +1,28 @@
+"""Which blocks are cells of soil, and how blocks and soils are named together."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from mbla.arrays import BoolArray, IntArray
+from mbla.deck.sections.soil import SOIL
+from mbla.model.blocks.soil import CELL
+from mbla.model.solids.blocks import Blocks
+from mbla.model.wording import named
+
+
+def is_cell(blocks: Blocks) -> BoolArray:
+    """Blocks that are cells of soil, (n_blocks,)."""
+    return np.asarray(blocks.labels.position(CELL.name) >= 0)
+
+
+def soil_name(name: str) -> str:
+    """``soil`` where it is called that, else ``soil road``."""
+    return name if name == SOIL else f"soil {name}"
+
+
+def named_with_soil(which: IntArray, blocks: Blocks) -> str:
+    """Of blocks (n,) the names, of cells that of the soil: ``soil backfill and wall[0], wall[2]``."""
+    cells = is_cell(blocks)[which]
+    soils = [soil_name(name) for name in dict.fromkeys(blocks.groups[cell] for cell in which[cells].tolist())]
+    return " and ".join([*soils, *([named(which[~cells], blocks.name)] if not cells.all() else [])])
