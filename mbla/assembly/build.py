@@ -8,6 +8,7 @@ from mbla.contacts.contacts import ContactsRefused
 from mbla.contacts.findings import bent_faults, overlap_findings
 from mbla.contacts.known import KnownContacts
 from mbla.contacts.search import find_contacts
+from mbla.contacts.soil import soil_findings
 from mbla.deck.deck import Deck
 from mbla.errors import DeckError, first_faults
 from mbla.model.model import Model
@@ -21,7 +22,8 @@ def build_assembly(deck: Deck, model: Model, known: KnownContacts | None = None)
     Raises
     ------
     DeckError
-        for blocks that overlap, bent faces in contact, glue that leaves nothing to move, and what no search can handle
+        for blocks that overlap, soil that touches nothing, bent faces in contact, glue that leaves nothing to move, and
+        what no search can handle
     """
     try:
         contacts = find_contacts(model, deck.contacts) if known is None else known.of(model, deck.contacts)
@@ -29,6 +31,7 @@ def build_assembly(deck: Deck, model: Model, known: KnownContacts | None = None)
         raise DeckError([deck.fault_at(refused.path, refused.message)]) from refused
     assembly = assembly_of(model, contacts)
     faults = [deck.fault_at(path, message) for path, message in overlap_findings(deck, model, contacts)]
+    faults += [deck.fault_at(path, message) for path, message in soil_findings(deck, model, contacts)]
     faults += bent_faults(deck, model, contacts)
     for findings in (glue_findings, objective_findings, settlement_findings):
         faults += [deck.fault_at(path, message) for path, message in findings(assembly)]

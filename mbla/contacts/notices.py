@@ -13,9 +13,11 @@ from mbla.contacts.faces.narrow_phase import Patches
 from mbla.contacts.glue import solid_sizes
 from mbla.contacts.overlaps import MOST_OVERLAPS
 from mbla.contacts.report import WIDEST, Findings
+from mbla.contacts.soil import soil_notices
 from mbla.deck.sections.contacts import ContactsSection
 from mbla.errors import Notice
 from mbla.model.model import Model
+from mbla.model.soil.names import counted_with_soil, named_with_soil
 from mbla.model.solids.ragged import row_maxima
 from mbla.model.wording import counted, named
 
@@ -30,6 +32,7 @@ def report_notices(
         *(Notice("warning", "blocks-overlap", text) for text in overlap_messages(model, report)),
         *_accepted(model, findings),
         *_missed(model, section, report),
+        *soil_notices(model, section.tolerance),
         *_grounds(model, section, bodies),
         *_left_out(model, report, findings),
     )
@@ -47,7 +50,7 @@ def _loose(model: Model, section: ContactsSection, report: ContactReport) -> Ite
         largest = max(parts, key=len)
         text = (
             f"{counted(len(parts), 'part')} of the structure not connected to a support, the largest of "
-            f"{counted(len(largest), 'block')}: {named(largest, model.blocks.name)}"
+            f"{counted_with_soil(largest, model.blocks)}: {named_with_soil(largest, model.blocks)}"
         )
         yield Notice("warning", "unsupported-parts", text)
 

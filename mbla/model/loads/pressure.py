@@ -27,6 +27,7 @@ from mbla.errors import Finding, KeyPath
 from mbla.model.applied_load import AppliedLoad, sum_on_blocks, wrenches_of
 from mbla.model.loads.face_parts import FaceParts, face_parts
 from mbla.model.loads.load_kind import Entry, LoadKind, LoadSite
+from mbla.model.soil.names import is_cell
 from mbla.model.solids.blocks import Blocks
 from mbla.model.solids.plane import cut, unit
 from mbla.model.solids.ragged import items_of_rows, row_means
@@ -74,13 +75,18 @@ def pressure_load(entry: Entry, blocks: IntArray | None, site: LoadSite) -> Appl
     here = (*entry.path, "pressure")
     chosen = np.arange(len(site.blocks)) if blocks is None else blocks
     faces = _selected_faces(pressure, chosen, site.blocks)
+    soil = bool(is_cell(site.blocks)[chosen].all())
     if not len(faces):
-        _refuse("no face of these blocks lies so: look at normal, within and box", here, site)
+        _refuse(
+            f"no face of {'the soil' if soil else 'these blocks'} lies so: look at normal, within and box", here, site
+        )
         return None
     parts = face_parts(faces, site.blocks, site.grounds, site.tolerance, pressure.faces == "free", site.overlap)
     wrenches, areas = _integrals(parts, pressure, faces, site.blocks)
     if not areas.any():
         words = "other blocks or the ground cover all of these faces; faces: all loads them all the same"
+        if soil and pressure.normal is not None:
+            words = "no free face of the soil lies so: look at normal, within and box"
         if (parts.covered < parts.areas).any():
             words = f"all of these faces lie above its level, z = {pressure.level:g}, or are covered by other blocks"
         _refuse(words, here, site)

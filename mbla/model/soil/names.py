@@ -8,7 +8,7 @@ from mbla.arrays import BoolArray, IntArray
 from mbla.deck.sections.soil import SOIL
 from mbla.model.blocks.soil import CELL
 from mbla.model.solids.blocks import Blocks
-from mbla.model.wording import named
+from mbla.model.wording import counted, named
 
 
 def is_cell(blocks: Blocks) -> BoolArray:
@@ -19,6 +19,13 @@ def is_cell(blocks: Blocks) -> BoolArray:
 def soil_name(name: str) -> str:
     """``soil`` where it is called that, else ``soil road``."""
     return name if name == SOIL else f"soil {name}"
+
+
+def counted_with_soil(which: IntArray, blocks: Blocks) -> str:
+    """``3 blocks and 40 cells of soil``: blocks (n,)."""
+    cells = int(is_cell(blocks)[which].sum())
+    soil = [f"{counted(cells, 'cell')} of soil"] if cells else []
+    return " and ".join([*([counted(len(which) - cells, "block")] if cells < len(which) else []), *soil])
 
 
 def named_with_soil(which: IntArray, blocks: Blocks) -> str:

@@ -17,6 +17,7 @@ from mbla.model.blocks.generated import ItemRefused
 from mbla.model.geometry.sheets import sheets
 from mbla.model.model import Ground
 from mbla.model.selectors import BlockSelection, select_blocks
+from mbla.model.soil.names import is_cell, named_with_soil
 from mbla.model.solids.blocks import Blocks
 from mbla.model.solids.plane import unit
 from mbla.model.solids.ragged import row_maxima
@@ -164,16 +165,19 @@ def check_ground(
     depths = row_maxima(-heights, blocks.vertex_start)
     sunk = np.flatnonzero(may_carry & (depths > contacts.depth_allowed * blocks.sizes))
     if len(sunk):
+        kind = "blocks or soil" if is_cell(blocks)[sunk].any() else "blocks"
         words = (
-            f"blocks reach below it, by up to {depths[sunk].max():.4g}: {named(sunk, blocks.name)}; move the plane, or "
-            "list the blocks that stand on it under the key blocks"
+            f"{kind} reach below it, by up to {depths[sunk].max():.4g}: {named_with_soil(sunk, blocks)}; move the "
+            "plane, or list the blocks that stand on it under the key blocks"
         )
         selection.refuse(Finding("ground-misplaced", words, *path))
     elif not _faces_on(ground, heights, may_carry, blocks, contacts) and not selection.partial:
         lowest = -depths[may_carry].max() if may_carry.any() else np.nan
         touching = touching_only(ground.point, ground.normal, Carried(blocks, may_carry, contacts))
-        nearest = touching or (f"; the nearest block begins {lowest:.4g} above it" if lowest > 0 else "")
-        selection.refuse(Finding("ground-misplaced", f"no face of a block that can move lies on it{nearest}", *path))
+        soil = bool(is_cell(blocks)[may_carry].all() and may_carry.any())
+        carried, which = ("the soil", "it") if soil else ("a block that can move", "the nearest block")
+        nearest = touching or (f"; {which} begins {lowest:.4g} above it" if lowest > 0 else "")
+        selection.refuse(Finding("ground-misplaced", f"no face of {carried} lies on it{nearest}", *path))
 
 
 def _faces_on(

@@ -14,6 +14,7 @@ from mbla.errors import Finding, KeyPath
 from mbla.model.geometry.sheets import fitted_plane, flattened
 from mbla.model.model import Ground
 from mbla.model.selectors import BlockSelection
+from mbla.model.soil.names import is_cell, named_with_soil
 from mbla.model.solids.blocks import Blocks
 from mbla.model.solids.plane import plane_axes
 from mbla.model.solids.polygons import polygons_from_loops, widths
@@ -136,8 +137,11 @@ def touching_only(point: FloatArray, normal: FloatArray, carried: Carried, surfa
     if not len(on):
         return ""
     owners, count = np.unique(blocks.block_of_vertex[on], return_counts=True)
-    which = f"{blocks.name(int(owners[0]))} touches it {'at a corner' if count[0] == 1 else 'along an edge'} only"
-    more = f" (and {len(owners) - 1} more)" if len(owners) > 1 else ""
+    which = (
+        f"{named_with_soil(owners[:1], blocks)} touches it {'at a corner' if count[0] == 1 else 'along an edge'} only"
+    )
+    others = int((~is_cell(blocks)[owners[1:]]).sum())
+    more = f" (and {others} more)" if others else ""
     return f"; {which}{more}: contacts need a face, so cut a flat there, or fix the block"
 
 
