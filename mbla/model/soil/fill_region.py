@@ -28,7 +28,7 @@ ROUNDING = 1e-3
 SPANDREL = 0.5
 """least share of the region, seen from the side, that walls along a face of it take up"""
 ONE_SOIL = "leave one of them out, or lay them on other blocks"
-ON = "name under `on` all that it lies on and that bounds it"
+ON = "name under `on` all that it lies on and that bounds it; what stands on it begins at its top"
 
 
 @dataclass(frozen=True)
