@@ -20,6 +20,7 @@ from mbla.results.results import CaseResult, Results
 from mbla.solution.flow.path_record import Stop
 from mbla.solution.pushover.curve_rows import CurveEnd
 from mbla.solution.solution import PROVED_STANDING, Checks, Mechanics, Standing, Status
+from mbla.solution.standing.standing import DOUBTFUL
 from mbla.solution.thresholds import APPROXIMATE_RESIDUAL
 
 WITH_VALUE = (Status.SOLVED, Status.APPROXIMATE)
@@ -216,7 +217,8 @@ def case_notices(case: CaseResult) -> tuple[Notice, ...]:
         notices.append(Notice("warning", "only-by-self-stress", f"{text}: {standing.reason}", name))
     if standing is not None and standing.verdict is Standing.DOUBTFUL:
         text = f"{name}: whether the structure stands without self-stress could not be decided"
-        notices.append(Notice("warning", "standing-doubtful", f"{text}: {standing.reason}", name))
+        cause = standing.reason.removeprefix(f"{DOUBTFUL}: ")
+        notices.append(Notice("warning", "standing-doubtful", f"{text}: {cause}", name))
     residual = law_residual(case.checks)
     if case.status is Status.SOLVED and case.solution.flow_rule != "associative" and residual > CLEAN_RESIDUAL:
         text = f"{name}: forces and velocities violate the joint law: residual {residual:.1e}, more than"

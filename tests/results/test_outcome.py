@@ -15,6 +15,7 @@ from mbla.results.outcome import (
 )
 from mbla.results.results import CaseResult
 from mbla.solution.solution import ModelSize, Standing, StandingResult, Status
+from mbla.solution.standing.standing import DOUBTFUL, SLOWLY
 from tests.results.synthetic import tower_results
 
 SOLVED, FALLEN = tower_results().cases
@@ -24,6 +25,13 @@ YES, SELF, NO, DOUBT = Standing.YES, Standing.SELF_STRESS, Standing.NO, Standing
 def with_standing(verdict: Standing | None, case: CaseResult = SOLVED) -> CaseResult:
     standing = None if verdict is None else StandingResult(verdict, 1, "why")
     return replace(case, solution=replace(case.solution, standing=standing))
+
+
+def test_a_doubt_is_told_once() -> None:
+    told = StandingResult(Standing.DOUBTFUL, 1, f"{DOUBTFUL}: {SLOWLY}")
+    (notice,) = case_notices(replace(SOLVED, solution=replace(SOLVED.solution, standing=told)))
+    words = "push_x: whether the structure stands without self-stress could not be decided: "
+    assert notice.message == words + SLOWLY
 
 
 @pytest.mark.parametrize(
