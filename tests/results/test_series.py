@@ -140,7 +140,7 @@ def test_positions_told_in_full(statuses: Sequence[Status], factors: Sequence[fl
     ("behind", "words"),
     [
         ((), "at (7, 0, 3) m"),
-        ((1.5,), "first axle at (7, 0, 3) m, 9 m along the path; axles on the path: 1 of 2"),
+        ((1.5,), "first axle at (7, 0, 3) m, 9 m along the path, with only axle 1 of 2 on it"),
     ],
 )
 def test_a_vehicle_stands_where_its_first_axle_is(behind: Any, words: str) -> None:
@@ -156,7 +156,7 @@ def test_a_vehicle_beyond_the_end_of_its_path(tmp_path: Path) -> None:
     assert len(lines) < 15
     text = " ".join(" ".join(lines).split())
     assert (
-        "worst at position 12 of 12, first axle at (-3, 0.25, 3) m, 11 m along the path; axles on the path: 3 of 3: "
+        "worst at position 12 of 12, first axle at (-3, 0.25, 3) m, 11 m along the path, with only axle 3 of 3 on it: "
         "load factor 2" in text
     )
     assert "brings the structure down at 8 of 12 positions, at load factors from 2 to 16; at 4 no multiple does" in text

@@ -161,12 +161,15 @@ def worst_words(model: Model, series: Series) -> str:
 
 
 def standing_words(model: Model, position: TravelPosition) -> str:
-    """``at (1.2, 0.5, 3) m``; of a vehicle its first axle, and which of the axles are on the path."""
+    """``at (1.2, 0.5, 3) m``; of a vehicle its first axle, and which are on the path where not all are."""
     length, axles = model.units.length, len(position.points)
     if axles == 1:
         return f"at {vector(position.point)} {length}"
     words = f"first axle at {vector(position.point)} {length}, {position.distance:.4g} {length} along the path"
-    return f"{words}; axles on the path: {_acting(position)} of {axles}"
+    if position.acting.all():
+        return words
+    axle = "axle" if position.acting.sum() == 1 else "axles"
+    return f"{words}, with only {axle} {_acting(position)} of {axles} on it"
 
 
 def spread_over_positions(series: Series) -> str:
