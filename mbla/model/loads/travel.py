@@ -30,7 +30,8 @@ from mbla.model.loads.load_footprint import LoadFootprint, Tread, level, on_bloc
 from mbla.model.loads.load_kind import CaseKind, Entry, LoadSite, Variant
 from mbla.model.loads.vehicle import Axles, axles_in_row, axles_of, remark_upwards
 from mbla.model.selectors import select_blocks
-from mbla.model.wording import counted, vector
+from mbla.model.soil.names import counted_with_soil, is_cell, named_with_soil
+from mbla.model.wording import vector
 from mbla.questions.travel import Travel as TravelQuestion
 from mbla.questions.travel_position import TravelPosition
 
@@ -211,9 +212,10 @@ def _applied(position: TravelPosition, landed: Landed, footprint: LoadFootprint,
 
 
 def _blocks_in_words(landed: Spread, site: LoadSite) -> str:
-    """``ring[4]``, ``7 blocks``."""
+    """``ring[4]``, ``7 blocks``, ``soil road``."""
     under = np.unique(landed.blocks)
-    return site.blocks.name(int(under[0])) if len(under) == 1 else counted(len(under), "block")
+    one = len(under) == 1 or is_cell(site.blocks)[under].all()
+    return named_with_soil(under, site.blocks) if one else counted_with_soil(under, site.blocks)
 
 
 def _remark_parts(name: str, forces: FloatArray, positions: Sequence[Landed], footprint: LoadFootprint) -> None:

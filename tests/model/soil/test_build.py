@@ -176,3 +176,13 @@ def test_a_mass_on_cells(tmp_path: Path) -> None:
     assert " on soil; weight" in words
     ((key, refusal),) = refused(tmp_path, ARCH, fill=both.replace("on: soil", "on: arch"))
     assert (key, refusal.split(":")[0]) == ("fill.road", "lies where the cells of soil are")
+
+
+def test_a_load_that_travels_on_soil(tmp_path: Path) -> None:
+    deck(tmp_path, ARCH, fill=fill())
+    text = (tmp_path / "deck.yaml").read_text(encoding="utf-8")
+    travels = "travel: {force: [0, 0, -1], path: [[0.5, 1, 1.5], [3.5, 1, 1.5]], positions: 3}"
+    (tmp_path / "deck.yaml").write_text(text.replace("acceleration: [1, 0, 0]", travels), encoding="utf-8")
+    words = [case.live_words[0] for case in build_model(read_deck(tmp_path / "deck.yaml")).load_cases]
+    assert len(words) == 3
+    assert all(" m on soil, position " in word for word in words)
