@@ -74,6 +74,7 @@ REFERENCES = (
     ),
     Reference("supports.#.joint", "joint law", BUILT_IN),
     Reference("fill.*.material", "material"),
+    Reference("fill.*.water.saturated", "material"),
     *(
         Reference(f"{place}{form}", "group", (GROUND,) if f"{place}{form}" in WITH_GROUND else ())
         for place in (*SELECTORS, "groups.*")

@@ -19,6 +19,7 @@ from mbla.deck.sections.loads import AddedMass
 from mbla.deck.sections.materials import FRICTIONLESS, JointLaw
 from mbla.deck.units import Units
 from mbla.errors import DeckError, Fault, Finding, KeyPath, Message, Notice
+from mbla.model.applied_load import AppliedLoad
 from mbla.model.block_sizes import unusual_sizes
 from mbla.model.drawn_joints import close_joints, joints_in_words
 from mbla.model.fill.fill import CarriedFill, build_fill
@@ -34,6 +35,7 @@ from mbla.model.selectors import BlockSelection, check_overrides, select_blocks
 from mbla.model.settlement import build_settlement
 from mbla.model.soil.build import Soils, build_soils
 from mbla.model.soil.soil_mesh import SoilCorners
+from mbla.model.soil.water import ground_water
 from mbla.model.solids.blocks import PointMasses, joined_masses
 from mbla.model.solids.build import BuiltBlocks, build_blocks
 from mbla.model.solids.defects import far_away
@@ -67,6 +69,7 @@ def build_model(deck: Deck, soil: Mapping[str, SoilCorners] = MappingProxyType({
         fill=structure.fill.bodies if structure.fill else {},
         vehicles=deck.content.vehicles,
         masses=structure.masses,
+        water=structure.water,
     )
     ties = build_ties(deck.content.ties, selection, supports.fixed, deck.contacts.tolerance)
     if structure.fill is not None:
@@ -124,6 +127,7 @@ class BuiltStructure:
     fill          : soil on the blocks, None for none
     masses        : of it and of the deck, each by itself
     soils         : of cells, which are among the blocks
+    water         : in it, that acts in every load case
     first_notices : before those on joint laws
     """
 
@@ -134,6 +138,7 @@ class BuiltStructure:
     fill: CarriedFill | None
     masses: PointMasses
     soils: Soils
+    water: tuple[AppliedLoad, ...]
     first_notices: tuple[Notice, ...]
 
 
@@ -156,7 +161,8 @@ def structure_of(deck: Deck, soil: Mapping[str, SoilCorners] = MappingProxyType(
     if not deck.content.symmetry:  # else images count among what they choose
         check_overrides(deck.contacts.overrides, selection)
     interfaces = read_interfaces(deck, selection, supports.grounds)
-    masses = [point_masses(deck.content.masses, selection, supports.fixed, deck.units)]
+    water = ground_water(deck, soils, selection)
+    masses = [point_masses(deck.content.masses, selection, supports.fixed, deck.units), water.masses]
     densities = {name: density_of(material, deck.units) for name, material in deck.content.materials.items()}
     masses_on = {name: each for name, each in deck.content.fill.items() if each.cells is None}
     fill = build_fill(masses_on, densities, selection, supports.fixed, deck.units, deck.contacts.tolerance)
@@ -167,7 +173,7 @@ def structure_of(deck: Deck, soil: Mapping[str, SoilCorners] = MappingProxyType(
     sizes = () if faults else unusual_sizes(selection.blocks, supports.fixed, deck.units)
     first = (*items.notices, *built.notices, *([far] if isinstance(far, Notice) else []), *sizes)
     bent = replace(built.bent, items=items.items[built.bent.blocks])
-    return BuiltStructure(selection, supports, interfaces, bent, fill, carried, soils, first)
+    return BuiltStructure(selection, supports, interfaces, bent, fill, carried, soils, water.loads, first)
 
 
 def _with_closed_joints(deck: Deck, built: BuiltBlocks, items: CollectedItems, faults: list[Fault]) -> BuiltBlocks:

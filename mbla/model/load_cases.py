@@ -75,7 +75,7 @@ def build_load_cases(name: str, section: LoadCaseSection, site: LoadSite) -> tup
     path: KeyPath = ("load_cases", name)
     dead_loads = with_gravity(entries_of(section.dead or [], (*path, "dead"), site.named), path, site.units)
     before = len(site.selection.faults)
-    dead = _add_up(dead_loads, site, live=False)
+    dead = _add_up(dead_loads, site, live=False).plus(*site.water)
     live_loads = list(entries_of(section.live or [], (*path, "live"), site.named))
     live = _add_up(live_loads, site, live=True)
     variants = [Variant()]
@@ -108,12 +108,17 @@ def build_load_cases(name: str, section: LoadCaseSection, site: LoadSite) -> tup
 
 
 def _judge_soil(name: str, gravity: FloatArray, tilts: bool, site: LoadSite) -> None:
-    """Soil that holds faces is part of the structure: a warning where gravity of the case is not that of its stress."""
+    """Soil that holds faces, and water in it, are part of the structure: a warning where gravity of the case is not
+    that of their stress.
+    """
     soils = [body.name for body in site.fill.values() if body.passive is not None]
     usual = site.units.standard_gravity
     other = np.linalg.norm(gravity - np.array([0.0, 0.0, -usual])) > SAME_GRAVITY * usual
+    why = "gravity turns against it" if tilts else f"gravity here is {vector(gravity)} {site.units.length}/s2"
+    if site.water and (tilts or other):
+        words = f"{name}: water in soil lifts it and presses on blocks as under standard gravity along -z, though {why}"
+        site.warn("soil-stress-stays", f"{words}: leave out water for this load case")
     if soils and (tilts or other):
-        why = "gravity turns against it" if tilts else f"gravity here is {vector(gravity)} {site.units.length}/s2"
         words = (
             f"{name}: the fill {', '.join(soils)} pushes on faces as under standard gravity along -z, with the active "
             f"pressure at least, though {why}: leave out passive for this load case"

@@ -27,8 +27,10 @@ from mbla.deck.sections.soil import (
     FRICTION_ANGLE,
     TENSILE_STRENGTH,
     WALL,
+    WATER,
     FillCells,
     SoilWall,
+    SoilWater,
     soil_strengths,
 )
 from mbla.errors import Finding
@@ -105,9 +107,10 @@ class Fill(Section):
     tensile_strength: NonNegativeStress = Field(0.0, description=f"cells: {TENSILE_STRENGTH}")
     dilatancy: FrictionAngle = Field(0.0, description=f"cells: {DILATANCY}")
     wall: SoilWall = Field(default_factory=SoilWall, description=f"cells: {WALL}")
+    water: SoilWater | None = Field(None, description=f"cells: {WATER}")
 
 
-OF_CELLS = ("friction_angle", "cohesion", "tensile_strength", "dilatancy", "wall")
+OF_CELLS = ("friction_angle", "cohesion", "tensile_strength", "dilatancy", "wall", "water")
 OF_MASSES = ("dispersal", "passive")
 
 

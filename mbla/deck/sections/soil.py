@@ -8,7 +8,15 @@ from typing import Protocol
 
 from pydantic import Field
 
-from mbla.deck.quantities import FrictionAngle, NonNegativeLength, NonNegativeStress, PositiveLength
+from mbla.deck.quantities import (
+    FrictionAngle,
+    Length,
+    Name,
+    NonNegativeLength,
+    NonNegativeStress,
+    PositiveLength,
+    PositiveUnitWeight,
+)
 from mbla.deck.section import ROUNDING, Section
 from mbla.errors import Finding
 
@@ -19,6 +27,7 @@ COHESION = "cohesion c of the soil"
 TENSILE_STRENGTH = "tensile strength of the soil, at most c / tan φ"
 DILATANCY = "dilatancy angle ψ of the soil, at most φ; default: 0"
 WALL = "law of its faces on blocks"
+WATER = "ground water, drained: lifts the soil below a level and presses on blocks there; default: none"
 SHARE_OF_WALL = 2.0 / 3.0
 """k of δ = k φ between soil and a wall, of precast concrete or steel sheet piles, EN 1997-1, 9.5.1(6)"""
 
@@ -46,6 +55,24 @@ class SoilWall(Section):
         None, description="at most that of the soil; default: two thirds of it, EN 1997-1, 9.5.1(6)"
     )
     cohesion: NonNegativeStress = Field(0.0, description="adhesion, at most the cohesion of the soil")
+
+
+class SoilWater(Section):
+    """Ground water at rest in the pores of soil below a level, drained: the joints of the soil carry effective stress.
+
+    It lifts each part of the soil below the level by the weight of the water in its place, and presses on blocks, and
+    on cells of soil without water, where they touch the soil below the level: in every load case, with a factor of 1.
+    Faces of blocks that no such soil touches stay dry: a load `pressure` gives water that stands before them or under
+    their foot.
+    """
+
+    level: Length = Field(description="height z of the water table; above the soil the soil is flooded")
+    unit_weight: PositiveUnitWeight | None = Field(None, description="of the water; default: 9.81 kN/m^3")
+    saturated: Name | None = Field(
+        None,
+        description="material of section materials, for the density of the soil below the level with the water in its "
+        "pores, no less than that above; default: that above",
+    )
 
 
 class SoilKeys(Protocol):

@@ -19,8 +19,10 @@ from mbla.deck.sections.soil import (
     FRICTION_ANGLE,
     TENSILE_STRENGTH,
     WALL,
+    WATER,
     SoilCells,
     SoilWall,
+    SoilWater,
     soil_strengths,
 )
 from mbla.errors import Finding
@@ -46,6 +48,7 @@ class SoilItem(AnyItem):
     tensile_strength: NonNegativeStress = Field(0.0, description=TENSILE_STRENGTH)
     dilatancy: FrictionAngle = Field(0.0, description=DILATANCY)
     wall: SoilWall = Field(default_factory=SoilWall, description=WALL)
+    water: SoilWater | None = Field(None, description=WATER)
 
 
 rule(SoilItem)(soil_strengths)
@@ -63,4 +66,4 @@ def generate(item: SoilItem, context: ItemContext) -> Generated:
     return Generated(())
 
 
-register_item(ItemKind("soil", SoilItem, generate, positions=(CELL,)))
+register_item(ItemKind("soil", SoilItem, generate, positions=(CELL,), materials=("water.saturated",)))

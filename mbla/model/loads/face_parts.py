@@ -1,7 +1,7 @@
-"""Free parts of faces: what no other block and no ground covers.
+"""Free parts of faces, what no other block and no ground covers, and parts of them that certain blocks cover.
 
 Each face is a polygon in coordinates of its own plane. The faces of other blocks that lie against it are taken away
-from it; the rest is divided into triangles.
+from it, or what it has in common with them is taken; that is divided into triangles.
 """
 
 from __future__ import annotations
@@ -15,7 +15,14 @@ from mbla.arrays import BoolArray, FloatArray, IntArray, row_of_item
 from mbla.model.model import Ground
 from mbla.model.solids.blocks import Blocks
 from mbla.model.solids.plane import meeting_boxes, plane_axes
-from mbla.model.solids.polygons import Polygons, polygons_from_loops, triangles
+from mbla.model.solids.polygons import (
+    Polygons,
+    connected_parts,
+    convex_polygons,
+    intersect,
+    polygons_from_loops,
+    triangles,
+)
 from mbla.model.solids.ragged import row_maxima, row_ranges
 from mbla.process.late import shapely
 
@@ -55,10 +62,15 @@ class _Frames:
         """A surface, corners (n, 3), as a polygon in the plane of a frame."""
         return shapely.Polygon((corners - self.origins[row]) @ self.axes[row].T)
 
-    def triangles(self, polygons: Polygons) -> tuple[FloatArray, IntArray]:
-        """Triangles of polygons (n,), one for each frame: corners (m, 3, 3), outwards, and their polygons (m,)."""
+    def triangles(self, polygons: Polygons, frame: IntArray) -> tuple[FloatArray, IntArray]:
+        """Triangles of polygons (n,), each in the plane of a frame: corners (m, 3, 3), outwards, and frames (m,)."""
         flat, rows = triangles(polygons)
+        rows = frame[rows]
         return np.einsum("nki,nij->nkj", flat, self.axes[rows]) + self.origins[rows, None], rows
+
+
+def _frames_of(faces: IntArray, blocks: Blocks) -> _Frames:
+    return _Frames(blocks.vertices[blocks.loops[blocks.loop_start[faces]]], plane_axes(blocks.face_normals[faces]))
 
 
 def face_parts(
@@ -73,7 +85,7 @@ def face_parts(
 
     tolerance, overlap : of gaps and of overlaps, relative to block size, as those of contacts
     """
-    frames = _Frames(blocks.vertices[blocks.loops[blocks.loop_start[faces]]], plane_axes(blocks.face_normals[faces]))
+    frames = _frames_of(faces, blocks)
     polygons = frames.polygons(np.arange(len(faces)), faces, blocks)
     areas = left = np.asarray(shapely.area(polygons))
     if free_only:
@@ -89,7 +101,23 @@ def face_parts(
         left = np.asarray(shapely.area(polygons))
         left[left <= 2.0 * tolerance * areas] = 0.0  # rounding of outlines
         polygons[left == 0.0] = shapely.Polygon()
-    return FaceParts(*frames.triangles(polygons), areas, areas - left)
+    return FaceParts(*frames.triangles(polygons, np.arange(len(faces))), areas, areas - left)
+
+
+def parts_against(faces: IntArray, by: BoolArray, blocks: Blocks, tolerance: float, overlap: float) -> FaceParts:
+    """What of the faces (n,) blocks of some, (n_blocks,), cover; no two of these cover the same.
+
+    tolerance, overlap : as of ``face_parts``
+    """
+    frames = _frames_of(faces, blocks)
+    polygons = frames.polygons(np.arange(len(faces)), faces, blocks)
+    mine, others = _facing_pairs(faces, blocks, tolerance, overlap)
+    chosen = by[blocks.block_of_face[others]]
+    mine, others = mine[chosen], others[chosen]
+    own, against = polygons[mine], frames.polygons(mine, others, blocks)
+    common, row = connected_parts(intersect(own, against, convex_polygons(own) & convex_polygons(against)))
+    covered = np.bincount(mine[row], weights=np.asarray(shapely.area(common)), minlength=len(faces)).astype(np.float64)
+    return FaceParts(*frames.triangles(common, mine[row]), np.asarray(shapely.area(polygons)), covered)
 
 
 def _on_ground(faces: IntArray, blocks: Blocks, ground: Ground, tolerance: float, overlap: float) -> BoolArray:

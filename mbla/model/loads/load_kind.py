@@ -73,6 +73,7 @@ class LoadSite:
     fill    : fills by name, through which loads spread
     vehicles : of the deck by name
     masses  : that blocks carry, each by itself
+    water   : in soil of cells, in every load case
     """
 
     selection: BlockSelection
@@ -86,6 +87,7 @@ class LoadSite:
     fill: Mapping[str, FillBody] = field(default_factory=dict)
     vehicles: Mapping[str, Vehicle] = field(default_factory=dict)
     masses: PointMasses = NO_MASSES
+    water: tuple[AppliedLoad, ...] = ()
 
     @property
     def blocks(self) -> Blocks:

@@ -82,7 +82,7 @@ def pressure_load(entry: Entry, blocks: IntArray | None, site: LoadSite) -> Appl
         )
         return None
     parts = face_parts(faces, site.blocks, site.grounds, site.tolerance, pressure.faces == "free", site.overlap)
-    wrenches, areas = _integrals(parts, pressure, faces, site.blocks)
+    wrenches, areas = pressure_wrenches(parts, pressure, faces, site.blocks)
     if not areas.any():
         words = "other blocks or the ground cover all of these faces; faces: all loads them all the same"
         if soil and pressure.normal is not None:
@@ -120,7 +120,7 @@ def _selected_faces(pressure: PressureLoad, chosen: IntArray, blocks: Blocks) ->
     return faces
 
 
-def _integrals(
+def pressure_wrenches(
     parts: FaceParts, pressure: PressureLoad, faces: IntArray, blocks: Blocks
 ) -> tuple[FloatArray, FloatArray]:
     """Force, moment and levers on each face, (n_faces, 15), and its loaded area, (n_faces,)."""

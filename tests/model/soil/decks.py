@@ -23,7 +23,7 @@ blocks:
 contacts: {{joint: dry{contacts}}}
 supports: {supports}
 {fill}
-load_cases: {{push: {{live: [{{acceleration: [1, 0, 0]}}]}}}}
+load_cases: {{push: {{{loads}}}}}
 """
 ARCH = (
     "arch: {group: arch, material: stone, shape: segmental, span: 4, rise: 1, thickness: 0.3, voussoirs: 15, width: 2, "
@@ -38,6 +38,7 @@ BACKFILL = (
     "cells: {size: 0.3}, friction_angle: 30}"
 )
 GROUND = "[{ground: {z: 0}}]"
+SIDEWAYS = "live: [{acceleration: [1, 0, 0]}]"
 
 
 def fill(keys: str = "", cells: str = "size: 0.4", level: float = LEVEL) -> str:
@@ -48,10 +49,12 @@ def fill(keys: str = "", cells: str = "size: 0.4", level: float = LEVEL) -> str:
     )
 
 
-def deck(folder: Path, *blocks: str, fill: str = "", supports: str = "[]", contacts: str = "") -> Deck:
+def deck(
+    folder: Path, *blocks: str, fill: str = "", supports: str = "[]", contacts: str = "", loads: str = SIDEWAYS
+) -> Deck:
     path = folder / "deck.yaml"
     lines = "\n".join(f"  - {block}" for block in blocks)
-    text = TEXT.format(blocks=lines, fill=fill, supports=supports, contacts=contacts)
+    text = TEXT.format(blocks=lines, fill=fill, supports=supports, contacts=contacts, loads=loads)
     path.write_text(text, encoding="utf-8")
     return read_deck(path)
 
@@ -62,9 +65,10 @@ def model(
     fill: str = "",
     supports: str = "[]",
     contacts: str = "",
+    loads: str = SIDEWAYS,
     soil: Mapping[str, SoilCorners] = MappingProxyType({}),
 ) -> Model:
-    return build_model(deck(folder, *blocks, fill=fill, supports=supports, contacts=contacts), soil)
+    return build_model(deck(folder, *blocks, fill=fill, supports=supports, contacts=contacts, loads=loads), soil)
 
 
 def refused(folder: Path, *blocks: str, fill: str = "", supports: str = "[]") -> list[tuple[str, str]]:

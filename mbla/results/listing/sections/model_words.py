@@ -12,7 +12,7 @@ from mbla.errors import Notice
 from mbla.model.model import Ground, LoadCase, Model
 from mbla.program.reductions.steps import ReductionOutcome, ReductionStep
 from mbla.results.listing.blocks import Block, Fact, ListingSection, Paragraph, apart, facts, paragraphs, table_of
-from mbla.results.listing.places import label_words, soil_words
+from mbla.results.listing.places import counted_of, label_words, soil_words
 from mbla.results.listing.sections.contact_words import contact_section, finding_sections
 from mbla.results.listing.sections.tie_words import tie_blocks, tie_title
 from mbla.results.listing.text import WIDTH, counted, lines_of, number, section_lines, sentence, text_of
@@ -97,9 +97,9 @@ def _size(model: Model) -> list[Fact]:
         Fact("weight (9.81 m/s2)", f"{number(model.total_weight)} {units.force}"),
     ]
     others = blocks.added_masses if model.fill is None else blocks.added_masses - model.fill.masses
-    added = int((others > ROUNDING * blocks.added_masses).sum())
-    if added:
-        mass = f"{number(float(others.sum()))} {units.mass} on {counted(added, 'block')}"
+    added = np.flatnonzero(others > ROUNDING * blocks.added_masses)
+    if len(added):
+        mass = f"{number(float(others.sum()))} {units.mass} on {counted_of(model, added)}"
         rows.append(Fact("added masses", f"{mass}; they count to the weights"))
     if model.fill is not None:
         counts = "its mass moves with what it lies on and counts to the weight of that"
