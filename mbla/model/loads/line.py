@@ -22,7 +22,8 @@ from mbla.model.fill.dispersal import Spread
 from mbla.model.loads.blocks_under import Below
 from mbla.model.loads.load_footprint import PARALLEL, LoadFootprint, Tread, level
 from mbla.model.loads.load_kind import Entry, LoadKind, LoadSite
-from mbla.model.wording import counted, vector
+from mbla.model.soil.names import counted_with_soil
+from mbla.model.wording import vector
 
 
 class LineLoad(Section):
@@ -76,7 +77,7 @@ def line_load(entry: Entry, blocks: IntArray | None, site: LoadSite) -> AppliedL
     wrenches = wrenches_of(forces, found.points, site.blocks.centroids[found.blocks])
     unique, total = sum_on_blocks(found.blocks, wrenches)
     spread = "" if through is None else f" through fill {through.name}"
-    return AppliedLoad(unique, total, f"{words}{spread} on {counted(len(unique), 'block')}")
+    return AppliedLoad(unique, total, f"{words}{spread} on {counted_with_soil(unique, site.blocks)}")
 
 
 def _landed(footprint: LoadFootprint, line: LineLoad, begin: FloatArray, end: FloatArray, words: str) -> Spread | None:

@@ -14,6 +14,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import Literal
 
 import numpy as np
@@ -54,7 +55,11 @@ class PressureLoad(Section):
     )
     normal: Direction | None = Field(None, description="outward normal of the faces; default: every face")
     within: FacingAngle = Field(10.0, description="greatest angle between the normal of a face and that, in degrees")
-    box: Box | None = Field(None, description="least and greatest coordinates: faces whose centroid lies inside")
+    box: Box | None = Field(
+        None,
+        description="least and greatest coordinates: faces whose centroid lies inside; of faces of soil of cells, the "
+        "parts inside",
+    )
     faces: Literal["free", "all"] = Field("free", description="free: exposed part of each face; all: covered parts too")
 
 
@@ -74,7 +79,7 @@ def pressure_load(entry: Entry, blocks: IntArray | None, site: LoadSite) -> Appl
     pressure: PressureLoad = entry.value
     here = (*entry.path, "pressure")
     chosen = np.arange(len(site.blocks)) if blocks is None else blocks
-    faces = _selected_faces(pressure, chosen, site.blocks)
+    faces = _selected_faces(pressure, chosen, site)
     soil = bool(is_cell(site.blocks)[chosen].all())
     if not len(faces):
         _refuse(
@@ -82,6 +87,8 @@ def pressure_load(entry: Entry, blocks: IntArray | None, site: LoadSite) -> Appl
         )
         return None
     parts = face_parts(faces, site.blocks, site.grounds, site.tolerance, pressure.faces == "free", site.overlap)
+    if pressure.box is not None:
+        parts = replace(parts, loops=_soil_inside(parts, faces, np.array(pressure.box), site))
     wrenches, areas = pressure_wrenches(parts, pressure, faces, site.blocks)
     if not areas.any():
         words = "other blocks or the ground cover all of these faces; faces: all loads them all the same"
@@ -108,7 +115,8 @@ def pressure_load(entry: Entry, blocks: IntArray | None, site: LoadSite) -> Appl
     return AppliedLoad(*sum_on_blocks(owner, wrenches[loaded]), words)
 
 
-def _selected_faces(pressure: PressureLoad, chosen: IntArray, blocks: Blocks) -> IntArray:
+def _selected_faces(pressure: PressureLoad, chosen: IntArray, site: LoadSite) -> IntArray:
+    blocks = site.blocks
     faces = items_of_rows(blocks.face_start, chosen)
     if pressure.normal is not None:
         cosine = math.cos(math.radians(pressure.within))
@@ -116,8 +124,26 @@ def _selected_faces(pressure: PressureLoad, chosen: IntArray, blocks: Blocks) ->
     if pressure.box is not None:
         least, greatest = np.array(pressure.box)
         middles = row_means(blocks.vertices[blocks.loops], blocks.loop_start)[faces]
-        faces = faces[((middles >= least) & (middles <= greatest)).all(axis=1)]
+        inside = ((middles >= least) & (middles <= greatest)).all(axis=1)
+        faces = faces[inside | is_cell(blocks)[blocks.block_of_face[faces]]]
     return faces
+
+
+def _soil_inside(parts: FaceParts, faces: IntArray, box: FloatArray, site: LoadSite) -> FloatArray:
+    """The loops of parts of faces, (n, k, 3), those of cells cut where a box ends: they are part of a mesh.
+
+    An end of the box along which a face lies does not cut it.
+    """
+    blocks, loops = site.blocks, parts.loops
+    owner = blocks.block_of_face[faces][parts.faces]
+    of_cell = is_cell(blocks)[owner]
+    normals = np.abs(blocks.face_normals[faces][parts.faces])
+    for axis in range(3):
+        slack = np.where(normals[:, axis] > 1.0 - LEVEL, site.tolerance * blocks.sizes[owner], 0.0)
+        for end, sign in zip(box[:, axis], (1.0, -1.0), strict=True):
+            inside = sign * (loops[..., axis] - end) + slack[:, None]
+            loops = cut(loops, np.where(of_cell[:, None], inside, 1.0))
+    return loops
 
 
 def pressure_wrenches(

@@ -18,6 +18,7 @@ from mbla.model.applied_load import AppliedLoad
 from mbla.model.loads.blocks_under import Below
 from mbla.model.loads.load_footprint import LoadFootprint, Tread, level, on_blocks
 from mbla.model.loads.load_kind import Entry, LoadKind, LoadSite
+from mbla.model.soil.names import counted_with_soil
 from mbla.model.solids.plane import unit
 from mbla.model.wording import counted, vector
 
@@ -102,9 +103,8 @@ def vehicle_load(entry: Entry, blocks: IntArray | None, site: LoadSite) -> Appli
     footprint.remark_beyond(words, axles.forces, landed)
     footprint.remark_met(words, axles.forces, landed)
     spread = axles.tread.words(site.units) + ("" if through is None else f" through fill {through.name}")
-    return AppliedLoad(
-        unique, total, f"{words}, {counted(len(places), 'axle')}{spread} on {counted(len(unique), 'block')}"
-    )
+    words = f"{words}, {counted(len(places), 'axle')}{spread} on {counted_with_soil(unique, site.blocks)}"
+    return AppliedLoad(unique, total, words)
 
 
 register_load(
