@@ -183,3 +183,32 @@ def test_without_dilatancy_a_half_is_left_out_about_a_given_plane_alone(offset: 
     model = replace(line.model, mirrors=((1.0, 0.0, 0.0, offset * middle),))
     reduced = reduce_program(model, line.contacts, line.program, ReductionSwitches(), associative=False)
     assert reduced.size.mirror_planes == planes
+
+
+SOIL = """\
+joints: {dry: {friction: 0.9}}
+blocks:
+  - box: {group: foot, material: stone, min: [0, 0, 0], max: [2, 1, 0.5]}
+  - soil:
+      {group: earth, material: stone, outline: [[0, 0.5], [2, 0.5], [2, 1], [0, 1]], width: WIDTH, cells: {size: 1},
+       friction_angle: 30, transform: [{translate: [0, START, 0]}]}
+WALLS
+supports: [{ground: {z: 0}}]
+load_cases: {push: {live: [{acceleration: [1, 0, 0]}]}}
+analysis: {flow_rule: associative}
+"""
+WALLS = """\
+  - box: {group: wall, material: stone, min: [0, 0, 0.5], max: [2, 0.2, 1]}
+  - box: {group: wall, material: stone, min: [0, 0.8, 0.5], max: [2, 1, 1]}
+"""
+
+
+@pytest.mark.parametrize(
+    ("width", "start", "walls", "expected"), [(1.0, 0.0, "", (2, 0)), (0.6, 0.2, WALLS.rstrip(), (3, 1))]
+)
+def test_soil_between_walls_is_in_space(width: float, start: float, walls: str, expected: tuple[int, int]) -> None:
+    """Walls along the faces are images of each other; soil through the width is planar."""
+    text = SOIL.replace("WIDTH", str(width)).replace("START", str(start)).replace("WALLS\n", f"{walls}\n".lstrip("\n"))
+    line = line_of(HEAD + text)
+    size = reduce_program(line.model, line.contacts, line.program, ReductionSwitches(), associative=True).size
+    assert (size.dimension, size.mirror_planes) == expected
