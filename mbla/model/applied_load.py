@@ -21,6 +21,7 @@ class AppliedLoad:
     in_g      : that acceleration is the same for all, and the deck gives it in g
     follows   : in a pushover it turns with its block
     at_point  : it is one force at one point of each block; others are spread over their blocks
+    of_water  : it is ground water in soil of cells, on these and on what they touch
     """
 
     blocks: IntArray
@@ -30,6 +31,7 @@ class AppliedLoad:
     in_g: bool = False
     follows: bool = False
     at_point: bool = False
+    of_water: bool = False
 
     def times(self, factor: float) -> AppliedLoad:
         """The load with a factor, which is no acceleration in g any more."""

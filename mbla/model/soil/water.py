@@ -167,7 +167,8 @@ def _load(deck: Deck, soil: _WetSoil, pressed: BoolArray, selection: BlockSelect
         f"water in {soil.words} below z = {soil.water.level:.6g} {units.length}, {soil.unit_weight:.6g} "
         f"{units.force}/{units.length}3: {', '.join(does)}"
     )
-    return AppliedLoad(*sum_on_blocks(np.append(cells[lifted], owner), np.vstack([lift, wrenches])), words)
+    acted_on, total = sum_on_blocks(np.append(cells[lifted], owner), np.vstack([lift, wrenches]))
+    return AppliedLoad(acted_on, total, words, of_water=True)
 
 
 def _wetted(

@@ -1,4 +1,4 @@
-"""What soil of cells presses with on the blocks beside, above and below it."""
+"""What soil of cells presses with on the blocks beside, above and below it, and water in it."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.contacts.contacts import Contacts
-from mbla.model.model import Model
+from mbla.model.model import LoadCase, Model
 from mbla.results.collapse.interface_modes import sum_by_interface
 from mbla.results.collapse.mechanics import global_forces
 
@@ -20,14 +20,16 @@ class SoilPressure:
     soil  : row in ``Model.soils``
     group : of the blocks
     force : (3,) N, on the blocks
-    point : (3,) m, mean of the contact points by their normal forces: the centre of pressure on a plane face; nan where
-            nothing presses
+    point : (3,) m, mean of the places where it presses by their normal forces: the centre of pressure on a plane face;
+            nan where nothing presses
+    water : it is that of the water in the soil, beside which joints of the soil press with effective stress
     """
 
     soil: int
     group: str
     force: FloatArray
     point: FloatArray
+    water: bool = False
 
 
 def soil_pressures(model: Model, contacts: Contacts, contact_forces: FloatArray) -> tuple[SoilPressure, ...]:
@@ -54,3 +56,22 @@ def soil_pressures(model: Model, contacts: Contacts, contact_forces: FloatArray)
         SoilPressure(row, group, total[:3], total[4:] / (total[3] or np.nan))
         for (row, group), total in sorted(sums.items(), key=lambda item: item[0][0])
     )
+
+
+def water_pressures(model: Model, load_case: LoadCase) -> tuple[SoilPressure, ...]:
+    """Of the water in each soil on groups of blocks, and on soil without water; the same at rest and at collapse."""
+    found, rows = [], model.soil_of_block
+    for load in load_case.dead:
+        if not load.of_water or not len(load.blocks):
+            continue
+        soil = next(row for row, mesh in enumerate(model.soils) if np.isin(load.blocks, mesh.blocks).any())
+        pressed = rows[load.blocks] != soil
+        blocks, wrenches = load.blocks[pressed], load.wrenches[pressed]
+        groups = np.array([model.blocks.groups[block] for block in blocks.tolist()])
+        for group in dict.fromkeys(groups.tolist()):
+            forces, levers = wrenches[groups == group, :3], wrenches[groups == group, 6:].reshape(-1, 3, 3)
+            total = forces.sum(axis=0)
+            places = levers + model.blocks.centroids[blocks[groups == group], :, None] * forces[:, None]
+            point = places.sum(axis=0) @ total / (total @ total or np.nan)
+            found.append(SoilPressure(soil, group, total, point, water=True))
+    return tuple(found)

@@ -78,6 +78,7 @@ def case_sections(assembly: Assembly, case: CaseResult) -> list[ListingSection]:
         locking = solution.lock[: len(assembly.contacts.points)]
         found["Locking forces"] = lock_blocks(model, assembly.contacts, locking)
     found |= {
+        "Earth pressure": soil_blocks(model, assembly.contacts, case),
         "Load factor and bounds": figure_blocks(model, case),
         "Reductions": facts(reduction_facts(solution.reductions)),
         "Path of elastic joints": path_blocks(model, case),
@@ -107,7 +108,6 @@ def _forces(
         "Reactions": [
             *reaction_blocks(held, contacts, load_case, mechanics),  # a support is one even as it gives way
             *group_reaction_blocks(held, contacts, mechanics),
-            *soil_blocks(model, contacts, mechanics),
             *freedom_blocks(contacts, case, freedom),
         ],
         tie_title(model): tie_force_blocks(model, mechanics) if len(model.ties) else [],

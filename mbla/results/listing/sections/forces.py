@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from mbla.arrays import FloatArray
@@ -14,7 +16,7 @@ from mbla.results.collapse.mechanics import (
     load_on_structure,
     reactions_of,
 )
-from mbla.results.collapse.soil_pressure import soil_pressures
+from mbla.results.collapse.soil_pressure import SoilPressure, soil_pressures, water_pressures
 from mbla.results.collapse.thrust import thrust_of
 from mbla.results.listing.blocks import MOST_ROWS, Block, Paragraph, apart, table_of
 from mbla.results.listing.places import counted_of, point_words, soil_words
@@ -51,23 +53,43 @@ def group_reaction_blocks(model: Model, contacts: Contacts, mechanics: Mechanics
     return apart(table_of(head, rows, total=len(groups)))
 
 
-def soil_blocks(model: Model, contacts: Contacts, mechanics: Mechanics) -> list[Block]:
-    """What soil of cells presses with on groups of blocks, and where; nothing without such soil."""
-    found = soil_pressures(model, contacts, mechanics.contact_forces)
-    if not found:
-        return []
-    size = np.full(6, max(float(np.abs(each.force).max()) for each in found) or 1.0)
+def soil_blocks(model: Model, contacts: Contacts, case: CaseResult) -> list[Block]:
+    """What soil of cells and water in it press with on groups of blocks, and where: with the forces that are shown, and
+    at rest; nothing without such soil.
+    """
+    solution, water = case.solution, water_pressures(model, case.load_case)
+    states = {} if solution.mechanics is None else {"soil presses": solution.mechanics.contact_forces}
+    if solution.standing is not None and solution.standing.forces is not None:
+        states["at rest soil presses"] = solution.standing.forces[: len(contacts.points)]
+    blocks: list[Block] = []
+    for head, forces in states.items():
+        table = _soil_table(model, head, [*soil_pressures(model, contacts, forces), *water])
+        blocks += apart(table) if blocks else table
+    if "at rest soil presses" in states and blocks:
+        blocks += apart([Paragraph(AT_REST)])
+    return blocks
+
+
+AT_REST = (
+    "At rest: forces that arise under the dead load alone in the assembly without stress, of elastic joints; others "
+    "are possible, and no coefficient of earth pressure at rest is assumed."
+)
+
+
+def _soil_table(model: Model, head: str, found: Sequence[SoilPressure]) -> list[Block]:
+    """Rows of soil and of water in it, with forces and the centre of pressure."""
+    size = np.full(6, max((float(np.abs(each.force).max()) for each in found), default=1.0) or 1.0)
     force, length = model.units.force, model.units.length
     rows = [
         [
-            f"{soil_words(model, np.array([each.soil]))} on {each.group}",
+            f"{'water in ' * each.water}{soil_words(model, np.array([each.soil]))} on {each.group}",
             *_components(np.append(each.force, np.zeros(3)), size)[:3],
             "-" if np.isnan(each.point).any() else point_words(model, each.point),
         ]
         for each in found[:MOST_ROWS]
     ]
-    head = ["soil presses", *(f"F{axis} [{force}]" for axis in "xyz"), f"centre of pressure at [{length}]"]
-    return apart(table_of(head, rows, total=len(found)))
+    heads = [head, *(f"F{axis} [{force}]" for axis in "xyz"), f"centre of pressure at [{length}]"]
+    return table_of(heads, rows, total=len(found))
 
 
 def _components(wrench: FloatArray, load: FloatArray) -> list[str]:
