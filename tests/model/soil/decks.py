@@ -23,7 +23,7 @@ blocks:
 contacts: {{joint: dry{contacts}}}
 supports: {supports}
 {fill}
-load_cases: {{push: {{{loads}}}}}
+load_cases: {{push: {{live: [{{acceleration: [1, 0, 0]}}]}}}}
 """
 ARCH = (
     "arch: {group: arch, material: stone, shape: segmental, span: 4, rise: 1, thickness: 0.3, voussoirs: 15, width: 2, "
@@ -54,7 +54,7 @@ def deck(
 ) -> Deck:
     path = folder / "deck.yaml"
     lines = "\n".join(f"  - {block}" for block in blocks)
-    text = TEXT.format(blocks=lines, fill=fill, supports=supports, contacts=contacts, loads=loads)
+    text = TEXT.format(blocks=lines, fill=fill, supports=supports, contacts=contacts).replace(SIDEWAYS, loads)
     path.write_text(text, encoding="utf-8")
     return read_deck(path)
 
