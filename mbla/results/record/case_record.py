@@ -24,6 +24,7 @@ from mbla.results.record.case_parts import (
     Reactions,
     residuals_of,
 )
+from mbla.results.record.earth_pressure import EARTH_PRESSURE, EarthPressure, earth_pressures
 from mbla.results.record.mechanism_json import MECHANISM
 from mbla.results.record.objects import Object
 from mbla.results.record.scene import Scene
@@ -140,6 +141,12 @@ def reactions(scene: Scene) -> Reactions | None:
         return None
     rows = reactions_of(scene.model, scene.contacts, case.load_case, found, by_group=True)
     return Reactions({row.support: row.wrench for row in rows})
+
+
+@CASE.key("a soil, or the water in it, on the blocks of a group", inside=EARTH_PRESSURE)
+def earth_pressure(scene: Scene) -> list[EarthPressure]:
+    """What soil of cells presses with, with the forces of the result and at rest."""
+    return earth_pressures(scene)
 
 
 def powers_of(model: Model, case: CaseResult) -> dict[str, float | None] | None:

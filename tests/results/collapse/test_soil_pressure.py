@@ -12,6 +12,7 @@ import pytest
 from mbla.process.run_options import RunOptions
 from mbla.results.collapse.soil_pressure import soil_pressures, water_pressures
 from mbla.results.listing.listing import listing
+from mbla.results.record.json_record import results_json
 from mbla.results.results import Results
 from mbla.run import run
 
@@ -88,3 +89,13 @@ def test_all_in_balance_with_the_water(results: Results) -> None:
     assert total[2] == pytest.approx(-(20 * 2 + WEIGHT - 10 * 2 - UPLIFT), rel=1e-12)
     assert np.abs(total[:2]).max() < 1e-12
     assert case.checks.equilibrium_residual < 1e-9
+
+
+def test_the_record_has_both_states(results: Results) -> None:
+    (case,) = results_json(results)["cases"]
+    found = {(each["at_rest"], each["water"]): each for each in case["earth_pressure"]}
+    assert len(found) == len(case["earth_pressure"]) == 4
+    assert {(each["soil"], each["group"]) for each in found.values()} == {("bed", "footing")}
+    assert found[True, False]["force"] == pytest.approx([0, 0, WEIGHT - UPLIFT], rel=1e-6, abs=1e-6)
+    assert found[False, False]["force"][0] == pytest.approx(-case["load_factor"])
+    assert found[False, True]["point"] == found[True, True]["point"] == pytest.approx([0.9, 0.5, 1.0])
