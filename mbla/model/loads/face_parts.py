@@ -18,10 +18,9 @@ from mbla.model.solids.plane import meeting_boxes, plane_axes
 from mbla.model.solids.polygons import (
     Polygons,
     connected_parts,
-    convex_polygons,
-    intersect,
     polygons_from_loops,
     triangles,
+    union_by_row,
 )
 from mbla.model.solids.ragged import row_maxima, row_ranges
 from mbla.process.late import shapely
@@ -105,7 +104,7 @@ def face_parts(
 
 
 def parts_against(faces: IntArray, by: BoolArray, blocks: Blocks, tolerance: float, overlap: float) -> FaceParts:
-    """What of the faces (n,) blocks of some, (n_blocks,), cover; no two of these cover the same.
+    """What of the faces (n,) some blocks, (n_blocks,), cover, or come within the tolerance of covering.
 
     tolerance, overlap : as of ``face_parts``
     """
@@ -114,10 +113,11 @@ def parts_against(faces: IntArray, by: BoolArray, blocks: Blocks, tolerance: flo
     mine, others = _facing_pairs(faces, blocks, tolerance, overlap)
     chosen = by[blocks.block_of_face[others]]
     mine, others = mine[chosen], others[chosen]
-    own, against = polygons[mine], frames.polygons(mine, others, blocks)
-    common, row = connected_parts(intersect(own, against, convex_polygons(own) & convex_polygons(against)))
-    covered = np.bincount(mine[row], weights=np.asarray(shapely.area(common)), minlength=len(faces)).astype(np.float64)
-    return FaceParts(*frames.triangles(common, mine[row]), np.asarray(shapely.area(polygons)), covered)
+    rows, group = np.unique(mine, return_inverse=True)
+    against = union_by_row(frames.polygons(mine, others, blocks), group, len(rows))
+    common, row = connected_parts(shapely.intersection(polygons[rows], against))
+    covered = np.bincount(rows[row], weights=np.asarray(shapely.area(common)), minlength=len(faces)).astype(np.float64)
+    return FaceParts(*frames.triangles(common, rows[row]), np.asarray(shapely.area(polygons)), covered)
 
 
 def _on_ground(faces: IntArray, blocks: Blocks, ground: Ground, tolerance: float, overlap: float) -> BoolArray:

@@ -88,6 +88,21 @@ def test_it_follows_points_that_are_moved(tmp_path: Path) -> None:
     assert on_blocks(after, loads[1])[low, 2] == pytest.approx(WEIGHT * after.blocks.volumes[low], rel=1e-9)
 
 
+def test_a_cell_that_is_hardly_there_does_not_press_twice(tmp_path: Path) -> None:
+    """Behind a cell thinner than the tolerance the next one comes as close to the wall."""
+    read = deck(tmp_path, WALL, wet(), supports=GROUND)
+    before = build_model(read)
+    (soil,) = before.soils
+    points, on_wall = soil.points.copy(), np.isclose(soil.points[:, 0], 0.0)
+    beside = soil.triangles[on_wall[soil.triangles].sum(axis=1) == 2]
+    beside = beside[soil.inside[beside].any(axis=1)][0]
+    apex, foot = beside[soil.inside[beside]][0], beside[on_wall[beside]]
+    points[apex] = [1e-5, points[foot, 1].mean()]
+    after = build_model(read, {"backfill": points})
+    pushed = [about(each, water_of(each), np.zeros(3), cells=False) for each in (before, after)]
+    assert pushed[1] == pytest.approx(pushed[0], rel=1e-9, abs=1e-6)
+
+
 def test_an_arch_under_water_in_its_fill(tmp_path: Path) -> None:
     """Water presses down on the extrados as much as it lifts the soil over it, and to both sides alike."""
     found = model(tmp_path, ARCH, fill=fill("water: {level: 1.4, unit_weight: 10000}"))
