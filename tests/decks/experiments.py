@@ -9,14 +9,24 @@ from typing import Any
 MEASURED: dict[str, dict[str, tuple[float, ...]]] = {
     "walls_ws": {"n40": (16.3,), "n100": (39.4,), "n175": (66.5,), "n250": (90.2,)},
     "walls_sw": {"n30": (21.9, 22.9), "n100": (41.5, 48.2), "n200": (71.6, 68.6), "n250": (102.7,)},
+    "prestwood_strips": {"strip": (228.0,)},
 }
 """each test, or of WS their mean; sources are in the decks"""
-NAMES = {"walls_ws": "WS, dry granite walls", "walls_sw": "SW, dry sandstone walls"}
+NAMES = {
+    "walls_ws": "WS, dry granite walls",
+    "walls_sw": "SW, dry sandstone walls",
+    "prestwood_strips": "Prestwood bridge, strips of soil",
+}
 
 
 def mean_of(deck: str, case: str) -> float:
     """Mean of the tests of a load case."""
     return fmean(MEASURED[deck][case])
+
+
+def words_of(case: str) -> str:
+    """How page and picture call a load case: of walls the vertical load."""
+    return case.removeprefix("n")
 
 
 def cut_walls(tensile_strength: float, vertical_load: float) -> dict[str, Any]:
