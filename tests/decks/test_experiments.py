@@ -57,3 +57,27 @@ def test_walls_with_units_that_are_cut(tensile_strength: float, vertical_load: f
     results = mbla.run("\n" + json.dumps(cut_walls(tensile_strength, vertical_load)))
     assert results.case("push").load_factor == pytest.approx(computed, rel=5e-3)
     assert f"{computed:.4g}" in PAGE
+
+
+MASS_ALONE = {
+    "on": "ring",
+    "material": "earth",
+    "level": 1.813,
+    "dispersal": {"law": "uniform", "angle": 26.565, "contact": 0.3},
+}
+STRIPS: dict[int, dict[str, object]] = {
+    102: {"fill.soil": MASS_ALONE},
+    139: {"parameters.fc": 1e6},
+    158: {"parameters.mobilisation": 1},
+    185: {"parameters.mobilisation": 1, "fill.soil.passive.cohesion_mobilisation": 1},
+}
+"""load factor that the page has, of Prestwood with strips and these values"""
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("computed", STRIPS)
+def test_prestwood_with_other_strips(computed: int) -> None:
+    results = mbla.run(FOLDER / "prestwood_strips.yaml", set=STRIPS[computed])
+    assert results.case("strip").load_factor == pytest.approx(computed, abs=0.51)
+    page = PAGE[PAGE.index("**Prestwood in strips") :].split("\n\n")[0]
+    assert re.search(rf"\b{computed}\b", page)
