@@ -89,10 +89,10 @@ class Fill(Section):
     other block lies above it. Loads that name the fill with `through` spread through it.
 
     With `cells` it is no mass on blocks but soil that carries and slips: rigid cells, in the group of its name, that
-    fill what lies between the blocks and the top, between spandrel walls where there are any. The blocks are prisms
-    across one horizontal direction there. Joints between cells, and of cells with ground, have the law of the soil,
-    those with other blocks that of `wall`; of `contacts.overrides` those with `between` hold for them. Loads act on the
-    cells.
+    fill what lies between the blocks and the top, between spandrel walls where there are any, which may rise above it
+    and may be among the blocks of `on`. The blocks are prisms across one horizontal direction there. Joints between
+    cells, and of cells with ground, have the law of the soil, those with other blocks that of `wall`; of
+    `contacts.overrides` those with `between` hold for them. Loads act on the cells.
     """
 
     on: Selector = Field(description="blocks whose upward faces carry it")

@@ -1,7 +1,8 @@
 """The region of fill: between the upper outline of blocks that are prisms across a plane, and the top of the fill.
 
 Beyond the ends of the blocks it stands on level ground at the foot of the outermost one, and upright ground holds it
-where it ends. Blocks that stand in it along a face of the structure are spandrel walls: it lies between them.
+where it ends. Blocks that stand in it along a face of the structure are spandrel walls, whether the deck names them
+among those that carry it or not: it lies between them, and they may rise above its top.
 """
 
 from __future__ import annotations
@@ -12,7 +13,7 @@ from itertools import pairwise
 import numpy as np
 import shapely
 
-from mbla.arrays import FloatArray, IntArray
+from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.deck.sections.fill import Fill
 from mbla.errors import Finding
 from mbla.model.blocks.generated import ItemRefused
@@ -26,7 +27,7 @@ from mbla.model.wording import named
 ROUNDING = 1e-3
 """share of the tolerance to which overlays of outlines are rounded"""
 SPANDREL = 0.5
-"""least share of the region, seen from the side, that walls along a face of it take up"""
+"""least share of the region over the blocks, seen from the side, that walls along a face of it take up"""
 ONE_SOIL = "leave one of them out, or lay them on other blocks"
 ON = "name under `on` all that it lies on and that bounds it; what stands on it begins at its top"
 
@@ -55,7 +56,7 @@ def fill_region(fill: Fill, blocks: Blocks, chosen: IntArray, levels: FloatArray
     assert fill.cells is not None
     axes = plane_of_prisms(blocks, chosen)
     top = _top(fill, axes)
-    under = sections_of(blocks, chosen, axes)
+    under = _carriers(sections_of(blocks, chosen, axes), tolerance)
     _refuse_below_blocks(top, under, blocks, tolerance)
     reach = tolerance * float(under.sizes.min())
     ends = _ends(under, fill.cells.beyond, tolerance)
@@ -64,11 +65,11 @@ def fill_region(fill: Fill, blocks: Blocks, chosen: IntArray, levels: FloatArray
     region = Region(axes, extent, polygons_of(shape, reach))
     if not region.polygons:
         raise ItemRefused(Finding("soil-region", "leaves nothing to fill: the top lies on the blocks", top.key))
-    between = _between_walls(region, blocks, chosen, tolerance)
+    between = _between_walls(region, blocks, under.blocks, ends, tolerance)
     _refuse_changing(between, under, ends, reach, blocks)
-    others = beside(between, blocks, chosen, tolerance)
+    others = beside(between, blocks, under.blocks, tolerance)
     held = _held(top, ends, others, levels, reach, tolerance)
-    near = np.concatenate([chosen, others.blocks])
+    near = np.concatenate([under.blocks, others.blocks])
     upper = np.stack([ends.soil, top.heights(ends.soil)], axis=1)
     own = np.concatenate([upper, np.stack([ends.soil, ends.feet], axis=1), np.stack([ends.blocks, ends.feet], axis=1)])
     region = with_corners(replace(between, held=held), blocks, near, tolerance, own)
@@ -94,6 +95,21 @@ def _refuse_below_blocks(top: _Top, under: Sections, blocks: Blocks, tolerance: 
         which = named(np.unique(under.blocks[row[above]]), blocks.name)
         words = f"lies up to {high.max():.4g} below the highest corners of {which}: raise it"
         raise ItemRefused(Finding("soil-region", words, top.key))
+
+
+def _carriers(under: Sections, tolerance: float) -> Sections:
+    """The blocks without the walls among them: what stands along one face only and rises over what lies between."""
+    reach = tolerance * float(under.sizes.min())
+    low, high = under.extents.T
+    near, far = low <= low.min() + reach, high >= high.max() - reach
+    aside = near != far
+    room = low[aside & far].min(initial=high.max()) - high[aside & near].max(initial=low.min())
+    if not aside.any() or aside.all() or room <= reach:
+        return under
+    carriers = under.take(np.flatnonzero(~aside))
+    solid = _solid(carriers, _ends(carriers, 0.0, tolerance), reach)
+    rises = ~shapely.is_empty(shapely.buffer(shapely.difference(under.outlines, solid), -reach / 2.0))
+    return under.take(np.flatnonzero(~(aside & rises)))
 
 
 @dataclass(frozen=True)
@@ -141,30 +157,52 @@ def _solid(under: Sections, ends: _Ends, reach: float) -> shapely.Geometry:
     return shapely.union_all(shapes, grid_size=ROUNDING * reach)
 
 
-def _between_walls(region: Region, blocks: Blocks, chosen: IntArray, tolerance: float) -> Region:
+def _between_walls(region: Region, blocks: Blocks, chosen: IntArray, ends: _Ends, tolerance: float) -> Region:
     """The region between walls that stand in it along its faces; what else stands in it is refused."""
     others = beside(region, blocks, chosen, tolerance)
-    rows = overlapping(region, others, tolerance)
-    if not len(rows):
+    walls = others.take(overlapping(region, others, tolerance))
+    if not len(walls.blocks):
         return region
-    reach = tolerance * others.sizes[rows]
-    near = others.extents[rows, 0] <= region.extent[0] + reach
-    far = others.extents[rows, 1] >= region.extent[1] - reach
-    extent, strange = region.extent.copy(), rows[near == far]
-    if not len(strange):
+    reach = tolerance * walls.sizes
+    near = walls.extents[:, 0] <= region.extent[0] + reach
+    far = walls.extents[:, 1] >= region.extent[1] - reach
+    over = _over_blocks(region, ends)
+    extent, strange = region.extent.copy(), near == far
+    if not strange.any():
         for side, at in enumerate((near, far)):
-            wall = rows[at]
-            taken = shapely.union_all([*others.outlines[wall]])
-            common = shapely.intersection(taken, shapely.union_all(region.polygons))
-            if len(wall) and common.area < SPANDREL * region.area:
-                strange = np.append(strange, wall)
-            elif len(wall):
-                extent[side] = others.extents[wall, 1].max() if side == 0 else others.extents[wall, 0].min()
-    if len(strange) or extent[1] - extent[0] <= reach.min():
-        which = np.unique(others.blocks[strange if len(strange) else rows])
+            common = shapely.intersection(shapely.union_all(walls.outlines[at]), over)
+            if at.any() and common.area < SPANDREL * over.area:
+                strange |= at
+            elif at.any():
+                extent[side] = _inner_face(walls, at, side, reach, blocks)
+    if strange.any() or extent[1] - extent[0] <= reach.min():
+        which = np.unique(walls.blocks[strange] if strange.any() else walls.blocks)
         remedy = ONE_SOIL if is_cell(blocks)[which].all() else ON
         raise ItemRefused(Finding("soil-region", f"overlaps {named_with_soil(which, blocks)}: {remedy}", "on"))
     return replace(region, extent=extent)
+
+
+def _over_blocks(region: Region, ends: _Ends) -> shapely.Geometry:
+    """What of the region lies between the ends of the blocks; all of it where nothing does."""
+    whole = shapely.union_all(region.polygons)
+    _, low, _, high = shapely.bounds(whole)
+    inside = shapely.intersection(whole, shapely.box(ends.blocks[0], low, ends.blocks[1], high))
+    return inside if inside.area > 0.0 else whole
+
+
+def _inner_face(walls: Sections, at: BoolArray, side: int, reach: FloatArray, blocks: Blocks) -> float:
+    """Where walls along one face, rows of ``at``, end towards the other one, across the plane; all at the same place.
+
+    side : 0 for the face with the lesser coordinate, 1 for the other
+    """
+    faces = walls.extents[at, 1 - side]
+    inner = float(faces.max() if side == 0 else faces.min())
+    thinner = np.abs(faces - inner) > reach[at]
+    if thinner.any():
+        which = named(np.unique(walls.blocks[at][thinner]), blocks.name)
+        words = f"the walls along a face of the soil must be as thick as each other where it lies: {which} thinner"
+        raise ItemRefused(Finding("soil-not-prismatic", words, "on"))
+    return inner
 
 
 def _refuse_changing(region: Region, under: Sections, ends: _Ends, reach: float, blocks: Blocks) -> None:

@@ -129,3 +129,40 @@ def test_corners_of_what_stands_on_top_are_corners(tmp_path: Path) -> None:
     pad = f"box: {{group: pad, material: stone, min: [1.1, 0, {LEVEL}], max: [1.4, 2, 1.7]}}"
     (soil,) = model(tmp_path, ARCH, pad, fill=fill()).soils
     assert missing(np.array([[1.1, LEVEL], [1.4, LEVEL]]), soil.points[soil.fixed]) < 1e-12
+
+
+BRIDGE = (
+    "bridge: {group: arch, material: stone, shape: segmental, spans: [4], rise: 1, thickness: 0.3, voussoirs: 15, "
+    "width: 2, abutments: {width: 1, height: 1, courses: 2}, spandrels: edges, spandrel_thickness: 0.3, "
+    "unit: [0.8, 0.4], cover: 0.3}"
+)
+"""Its walls rise to z = 1.595, over an arch as of `ARCH`."""
+
+
+@pytest.mark.parametrize("more", ["", ", backing: 1", ", parapets: {height: 0.5, thickness: 0.4}"])
+def test_a_whole_bridge_carries_it_between_its_spandrel_walls(tmp_path: Path, more: str) -> None:
+    """They may be higher than the road, and so may what stands on them."""
+    whole = model(tmp_path, BRIDGE[:-1] + more + "}", fill=fill(cells="size: 0.5, beyond: 3"))
+    (soil,) = whole.soils
+    assert soil.extent == pytest.approx([0.3, 1.7])
+    members = ", ".join(f"{{group: arch, member: {each}}}" for each in ("voussoir", "springer", "abutment"))
+    others = fill(cells="size: 0.5, beyond: 3").replace("on: arch", f"on: [{members}]")
+    if "backing" not in more:
+        (same,) = model(tmp_path, BRIDGE[:-1] + more + "}", fill=others).soils
+        assert np.array_equal(same.points, soil.points)
+    volumes = whole.blocks.volumes[whole.soil_of_block < 0].sum(), whole.blocks.volumes[soil.blocks].sum()
+    assert volumes[1] == pytest.approx(1.4 * area_of(whole))
+    assert area_of(whole) > area_over_extrados(LEVEL)
+
+
+def test_a_wall_along_one_face_of_what_carries_it(tmp_path: Path) -> None:
+    (soil,) = model(tmp_path, ARCH, spandrel(0, 0.3, group="arch"), fill=fill()).soils
+    assert soil.extent == pytest.approx([0.3, 2])
+
+
+def test_walls_of_two_thicknesses_are_refused(tmp_path: Path) -> None:
+    thin = spandrel(0, 0.2, group="arch").replace("max: [5,", "max: [2,")
+    thick = spandrel(0, 0.3, left=2, group="arch")
+    ((key, words),) = refused(tmp_path, ARCH, thin, thick, fill=fill())
+    assert key == "fill.soil.on"
+    assert "arch[15] thinner" in words
