@@ -70,6 +70,7 @@ def build_model(deck: Deck, soil: Mapping[str, SoilCorners] = MappingProxyType({
         vehicles=deck.content.vehicles,
         masses=structure.masses,
         water=structure.water,
+        soils=structure.soils.meshes,
     )
     ties = build_ties(deck.content.ties, selection, supports.fixed, deck.contacts.tolerance)
     if structure.fill is not None:

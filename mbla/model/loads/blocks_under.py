@@ -1,9 +1,10 @@
-"""Which block lies under a point, or under each part of a line.
+"""Which block lies under a point, or under each part of a line or of a rectangle.
 
 One looks from the point in a direction: the block is the one that the point lies in, or else the first one ahead.
 As blocks do not overlap, that is the block of the first face ahead through which the direction leads *out*, so that
 points on a top face and points inside a block need no case of their own.
-Faces are outlines in the plane across the direction; a line there crosses their edges where what lies under it changes.
+Faces are outlines in the plane across the direction; a line there crosses their edges where what lies under it changes,
+and a rectangle is divided by them.
 """
 
 from __future__ import annotations
@@ -25,6 +26,9 @@ GRAZING = 1e-9
 """cosine between a face's normal and the direction, below which the direction runs along the face"""
 BEHIND = 1e-6
 """a point may lie behind the outer side of a block by this share of the block's size and still be taken to lie on it"""
+
+OVERLAY = 1e-12
+"""share of the sides of a rectangle to which the edges that divide it are rounded"""
 
 
 @dataclass(frozen=True)
@@ -112,3 +116,21 @@ class Below:
         blocks = np.stack([self.under(each[0] + middles * (each[1] - each[0])) for each in sides])
         changes = np.append(True, (blocks[:, 1:] != blocks[:, :-1]).any(axis=0))
         return np.append(cuts[:-1][changes], 1.0), blocks[:, changes]
+
+    def pieces(self, corner: FloatArray, sides: FloatArray) -> tuple[Polygons, IntArray]:
+        """Pieces of a rectangle, polygons (n,) whose coordinates are shares of its sides, and what lies under each,
+        (n,), -1 where nothing does.
+
+        corner : (3,) from which its sides, (2, 3), lead
+        """
+        axes = plane_axes(self.down[None])[0]
+        base, across = corner @ axes.T, sides @ axes.T
+        whole = shapely.Polygon(base + np.array([[0, 0], [1, 0], [1, 1], [0, 1]]) @ across)
+        met = self.outlines[self.tree.query(whole, predicate="intersects")]
+        shares = shapely.transform(met, lambda places: (places - base) @ np.linalg.inv(across))
+        unit_square = shapely.box(0.0, 0.0, 1.0, 1.0)
+        inside = shapely.intersection(shapely.boundary(shares), unit_square)
+        lines = shapely.union_all([shapely.boundary(unit_square), *inside], grid_size=OVERLAY)
+        found = shapely.get_parts(shapely.polygonize(shapely.get_parts(lines)))
+        middles = shapely.get_coordinates(shapely.point_on_surface(found))
+        return found, self.under(corner + middles @ sides)

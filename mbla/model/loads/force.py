@@ -12,12 +12,15 @@ from mbla.deck.kinds.load_key import register_load
 from mbla.deck.quantities import Force
 from mbla.model.applied_load import AppliedLoad, wrenches_of
 from mbla.model.loads.load_kind import Entry, LoadKind, LoadSite, one_block
+from mbla.model.loads.on_soil import refuse_on_cells
 from mbla.model.outside import outside
 from mbla.model.wording import vector
 
 
 def force_load(entry: Entry, blocks: IntArray | None, site: LoadSite) -> AppliedLoad | None:
     """A force at a point of one block, (1,), by default at its centroid."""
+    if refuse_on_cells("force", blocks, (*entry.path, "on"), site):
+        return None
     block, at = one_block(entry, blocks, site), entry.load.at
     if block is None:
         return None

@@ -20,9 +20,10 @@ from mbla.errors import Finding, KeyPath
 from mbla.model.applied_load import AppliedLoad, sum_on_blocks, wrenches_of
 from mbla.model.fill.dispersal import Spread
 from mbla.model.loads.blocks_under import Below
-from mbla.model.loads.load_footprint import PARALLEL, LoadFootprint, Tread, level
+from mbla.model.loads.load_footprint import PARALLEL, LoadFootprint
 from mbla.model.loads.load_kind import Entry, LoadKind, LoadSite
-from mbla.model.soil.names import counted_with_soil
+from mbla.model.loads.on_soil import LAY, carriers_in_words, refuse_without_length
+from mbla.model.loads.tread import Tread, level
 from mbla.model.wording import vector
 
 
@@ -77,7 +78,7 @@ def line_load(entry: Entry, blocks: IntArray | None, site: LoadSite) -> AppliedL
     wrenches = wrenches_of(forces, found.points, site.blocks.centroids[found.blocks])
     unique, total = sum_on_blocks(found.blocks, wrenches)
     spread = "" if through is None else f" through fill {through.name}"
-    return AppliedLoad(unique, total, f"{words}{spread} on {counted_with_soil(unique, site.blocks)}")
+    return AppliedLoad(unique, total, f"{words}{spread} on {carriers_in_words(unique, site)}")
 
 
 def _landed(footprint: LoadFootprint, line: LineLoad, begin: FloatArray, end: FloatArray, words: str) -> Spread | None:
@@ -88,7 +89,10 @@ def _landed(footprint: LoadFootprint, line: LineLoad, begin: FloatArray, end: Fl
         bare = np.asarray((carriers < 0).all(axis=0))
         if bare.any() and not site.selection.partial:  # what could not be built may well lie there
             _refuse_bare(line, ends, bare, footprint.path, site)
-        return None if bare.any() else footprint.of_line(begin, end)
+        found = None if bare.any() else footprint.of_line(begin, end)
+        if found is None or refuse_without_length(found.blocks, (end - begin)[None], LAY, footprint.path, site):
+            return None
+        return found
     across = end - begin
     if not footprint.sound(np.array([line.force_per_length]), across, Tread()):
         return None

@@ -1,5 +1,5 @@
 """Where a vertical or other force that stands above the structure lands: on the block under it, on those under the line
-over which it is shared, or through fill on all blocks that it spreads to.
+or the rectangle over which it is shared, or through fill on all blocks that it spreads to.
 """
 
 from __future__ import annotations
@@ -11,14 +11,16 @@ from functools import cached_property
 import numpy as np
 
 from mbla.arrays import FloatArray, IntArray, summed
-from mbla.deck.units import Units
 from mbla.errors import Finding, KeyPath, Notice
 from mbla.model.applied_load import sum_on_blocks, wrenches_of
 from mbla.model.fill.dispersal import Spread, beside, emerging, spread
 from mbla.model.fill.fill import FillBody
 from mbla.model.loads.blocks_under import Below
 from mbla.model.loads.load_kind import LoadSite
+from mbla.model.loads.on_soil import refuse_without_length
+from mbla.model.loads.tread import Tread, across, level
 from mbla.model.wording import named, vector
+from mbla.process.late import shapely
 
 PARALLEL = 1e-6
 """sine of the angle between a line and the direction to its blocks, up to which they are parallel"""
@@ -28,24 +30,6 @@ NEAR = 1e-3
 """share of the size of a block that a load may stand beside the fill, or a block rise out of it under the load"""
 GAUSS = 0.5 / 3**0.5
 """of the side of a contact, from its middle to the two places that stand for it: its second moment is theirs"""
-
-
-@dataclass(frozen=True)
-class Tread:
-    """How an axle stands: on a line across, at a point, or on two wheels.
-
-    width   : of the line; 0 for none
-    gauge   : distance of two wheels across; 0 for none
-    contact : sides, along and across, of the rectangle under each wheel; 0 for a point
-    """
-
-    width: float = 0.0
-    gauge: float = 0.0
-    contact: tuple[float, float] = (0.0, 0.0)
-
-    def words(self, units: Units) -> str:
-        """Of its wheels, for the listing."""
-        return f" on wheels {self.gauge:.6g} {units.length} apart" if self.gauge > 0.0 else ""
 
 
 def on_blocks(landed: Sequence[Spread], forces: FloatArray, site: LoadSite) -> tuple[IntArray, FloatArray]:
@@ -61,50 +45,80 @@ class LoadFootprint:
     """How loads of one entry of the deck land.
 
     below : blocks that they may land on; through : the fill on which they stand, None for none
-    path  : of the load, for faults
+    path  : of the load, for faults; vehicle : of the deck that it is, empty for none
     """
 
     below: Below
     through: FillBody | None
     path: KeyPath
     site: LoadSite
+    vehicle: str = ""
 
-    def of(self, place: FloatArray, along: FloatArray, width: float) -> Spread | None:
-        """Of a force at a place, (3,), shared over a width across the way along, (3,) unit and level; 0 at the place.
+    def of(self, place: FloatArray, along: FloatArray, width: float, length: float = 0.0) -> Spread | None:
+        """Of a force at a place, (3,), shared over a width across the way along, (3,) unit and level, and over a length
+        along it; 0 and 0 at the place.
 
         None where part of it lies over no block, in fill where it stands beside it, which leaves a fault.
         """
         if self.through is not None:
             return self._through(self.through, place, along, width)
-        if width > 0.0:
-            across = width / 2 * np.array([-along[1], along[0], 0.0])
-            return self.of_line(place - across, place + across)
+        sides = np.stack([length * along, width * across(along)])
+        if length > 0.0 and width > 0.0:
+            return self._of_rectangle(place, sides)
+        if length > 0.0 or width > 0.0:
+            half = sides.sum(axis=0) / 2
+            return self.of_line(place - half, place + half)
         block = self.below.at(place[None])
         return Spread(block, np.ones(1), place[None], 0.0) if block[0] >= 0 else None
 
     def of_axle(self, place: FloatArray, along: FloatArray, tread: Tread) -> Spread | None:
         """Of an axle with its middle at a place, (3,), each wheel with half of it; as ``of`` otherwise.
 
-        On blocks the contact of a wheel is two lines along the way, which are divided where the blocks are; in fill
-        four points, each of which spreads to all sides.
+        On blocks the contact presses evenly, and is divided where the blocks are; in fill two places along the way
+        stand for its length, and of a wheel two for its width, each of which spreads to all sides.
         """
-        if tread.gauge == 0.0:
-            return self.of(place, along, tread.width)
-        across = np.array([-along[1], along[0], 0.0])
-        length, aside = tread.contact[0] * along, GAUSS * tread.contact[1] * across
-        wheels = [place + side * tread.gauge / 2 * across for side in (-1.0, 1.0)]
-        if not any(tread.contact):
-            found = [self.of(wheel, along, 0.0) for wheel in wheels]
-        elif self.through is None:
-            lines = [wheel + side * aside for wheel in wheels for side in (-1.0, 1.0)]
-            found = [self.of_line(middle - length / 2, middle + length / 2) for middle in lines]
+        length, width = tread.contact
+        if self.through is None or length == 0.0:
+            found = [self.of(wheel, along, width, length) for wheel in tread.places(place, along)]
         else:
-            corners = [end * GAUSS * length + side * aside for end in (-1.0, 1.0) for side in (-1.0, 1.0)]
             law = self.through.dispersal.model_copy(update={"contact": None})
             on = replace(self, through=replace(self.through, dispersal=law))
-            found = [on.of(wheel + corner, along, 0.0) for wheel in wheels for corner in corners]
+            aside, line = (GAUSS * width, 0.0) if tread.gauge > 0.0 else (0.0, width)
+            ways = [end * GAUSS * length * along for end in (-1.0, 1.0)]
+            corners = [way + side * across(along) for way in ways for side in dict.fromkeys((-aside, aside))]
+            wheels = tread.places(place, along)
+            found = [on.of(wheel + corner, along, line) for wheel in wheels for corner in corners]
         landed = [each for each in found if each is not None]
-        return _together(landed) if len(landed) == len(found) else None
+        if len(landed) < len(found) or self._without_length(landed, along, tread):
+            return None
+        return landed[0] if len(landed) == 1 else _together(landed)
+
+    def _without_length(self, landed: Sequence[Spread], along: FloatArray, tread: Tread) -> bool:
+        """Whether an axle stands on soil of cells without a length; leaves a fault."""
+        if self.through is not None:
+            return False
+        of = f"vehicles.{self.vehicle}" if self.vehicle else "it"
+        remedy = f"give {of} a contact, the length along its way on which an axle stands, as 0.4 m of EN 1991-2"
+        if tread.gauge > 0.0:
+            remedy = f"give the wheels of {of} a contact, as [0.4, 0.4] m of EN 1991-2"
+        under = np.concatenate([each.blocks for each in landed])
+        return refuse_without_length(under, tread.sides(along), remedy, self.path, self.site)
+
+    def _of_rectangle(self, middle: FloatArray, sides: FloatArray) -> Spread | None:
+        """Of a force that presses evenly on a rectangle, sides (2, 3), about its middle; None where part of it lies
+        over no block, but for joints that are not quite closed: these count to the piece that is nearest.
+        """
+        corner = middle - sides.sum(axis=0) / 2
+        pieces, carriers = self.below.pieces(corner, sides)
+        bare, lengths = np.flatnonzero(carriers < 0), np.linalg.norm(sides, axis=1)
+        narrow = self.site.tolerance * float(self.site.blocks.sizes[self.below.chosen].min()) / lengths.min()
+        if len(bare) == len(pieces) or not shapely.is_empty(shapely.buffer(pieces[bare], -narrow / 2)).all():
+            return None
+        kept = np.flatnonzero(carriers >= 0)
+        for piece in bare:  # few: open joints
+            carriers[piece] = carriers[kept[np.argmin(shapely.distance(pieces[kept], pieces[piece]))]]
+        middles = shapely.get_coordinates(shapely.centroid(pieces))
+        return Spread(carriers, shapely.area(pieces), corner + middles @ sides, 0.0)
 
     def of_line(self, begin: FloatArray, end: FloatArray) -> Spread | None:
         """Of a force that is shared evenly over a line; None where part of it lies over no block."""
@@ -133,8 +147,8 @@ class LoadFootprint:
         return ends, carriers
 
     def _through(self, body: FillBody, place: FloatArray, along: FloatArray, width: float) -> Spread | None:
-        across = width / 2 * np.array([-along[1], along[0], 0.0])
-        places = np.stack([place - across, place, place + across])
+        half = width / 2 * across(along)
+        places = np.stack([place - half, place, place + half])
         reach = NEAR * float(self.site.blocks.sizes[body.blocks].min())
         outside = places[beside(body, places, along, reach)]
         if len(outside):
@@ -182,14 +196,15 @@ class LoadFootprint:
 
         In fill they are vertical; what spreads, or has a width, needs to know what across is.
         """
-        width = tread.width or tread.gauge
+        width = tread.contact[1] or tread.gauge
         flat = float(np.abs(way[:2]).max())
-        if (self.through is not None or width > 0.0) and flat <= UPRIGHT * float(np.abs(way).max()):
+        if (self.through is not None or width > 0.0 or tread.contact[0] > 0.0) and flat <= UPRIGHT * float(
+            np.abs(way).max()
+        ):
             words = "is upright: what is level and across it is not known"
             self.site.refuse(Finding("degenerate-line", words, *self.path))
             return False
-        across = np.cross([0.0, 0.0, 1.0], level(way))
-        lines = [across] * (width > 0.0) + [level(way)] * any(tread.contact)
+        lines = [across(level(way))] * (width > 0.0) + [level(way)] * (tread.contact[0] > 0.0)
         if self.through is None and any(np.linalg.norm(np.cross(each, self.below.down)) <= PARALLEL for each in lines):
             words = "looks for its blocks along the width of its axles: give another direction with towards"
             self.site.refuse(Finding("degenerate-line", words, *self.path))
@@ -204,6 +219,19 @@ class LoadFootprint:
             )
             self.site.refuse(Finding("load-not-on-fill", words, *self.path))
         return not slanting.any()
+
+    def bare_words(self, place: FloatArray, tread: Tread, change: str) -> str:
+        """What an axle at a place, (3,), is over where part of it lies over no block, and what is to be done.
+
+        change : ``move it``
+        """
+        if self.through is not None:
+            return f"beyond the blocks under the fill {self.through.name}; {change}"
+        if self.below.at(place[None])[0] < 0:
+            return f"over no block; {change}, or look for blocks in another direction with towards"
+        units = self.site.units
+        stands = tread.words(units) or f" on a width of {tread.contact[1]:.6g} {units.length}"
+        return f"over no block with a part of it, for it stands{stands}; {change}, so that all of it is over blocks"
 
     def remark_beyond(self, words: str, forces: FloatArray, landed: Sequence[Spread]) -> None:
         """A notice where part of a load, forces (n, 3), goes past the ends of all blocks."""
@@ -262,10 +290,3 @@ def share_of(forces: FloatArray, shares: Sequence[float]) -> float:
     """Share of the sum of forces (n, 3), by the share of each, (n,)."""
     sizes = np.linalg.norm(forces, axis=1)
     return float(sizes @ np.array(shares) / sizes.sum()) if sizes.any() else 0.0
-
-
-def level(way: Sequence[float] | FloatArray) -> FloatArray:
-    """The level direction of a way, (3,) unit; nothing of one that is upright."""
-    flat = np.array([way[0], way[1], 0.0])
-    flat = flat / (np.abs(flat).max() or 1.0)
-    return np.asarray(flat / (np.linalg.norm(flat) or 1.0))

@@ -22,6 +22,7 @@ from mbla.model.applied_load import AppliedLoad
 from mbla.model.fill.fill import FillBody
 from mbla.model.model import Ground
 from mbla.model.selectors import BlockSelection
+from mbla.model.soil.soil_mesh import SoilMesh
 from mbla.model.solids.blocks import NO_MASSES, Blocks, PointMasses
 from mbla.questions import Question
 from mbla.questions.load_factor import LOAD_FACTOR
@@ -74,6 +75,7 @@ class LoadSite:
     vehicles : of the deck by name
     masses  : that blocks carry, each by itself
     water   : in soil of cells, in every load case
+    soils   : of cells, which are among the blocks
     """
 
     selection: BlockSelection
@@ -88,6 +90,7 @@ class LoadSite:
     vehicles: Mapping[str, Vehicle] = field(default_factory=dict)
     masses: PointMasses = NO_MASSES
     water: tuple[AppliedLoad, ...] = ()
+    soils: Sequence[SoilMesh] = ()
 
     @property
     def blocks(self) -> Blocks:

@@ -21,16 +21,17 @@ from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.deck.kinds.load_key import register_load
 from mbla.deck.quantities import Direction, Force, Name, Point, Positions, PositiveLength
 from mbla.deck.section import Section, exactly_one_of, given, rule
-from mbla.deck.sections.vehicles import DOWN, TOWARDS, WIDTH, Axle
+from mbla.deck.sections.vehicles import CONTACT, DOWN, TOWARDS, WIDTH, Axle
 from mbla.errors import Finding, KeyPath, Notice
 from mbla.model.applied_load import AppliedLoad
 from mbla.model.fill.dispersal import Spread
 from mbla.model.loads.blocks_under import Below
-from mbla.model.loads.load_footprint import LoadFootprint, Tread, level, on_blocks, share_of
+from mbla.model.loads.load_footprint import LoadFootprint, on_blocks, share_of
 from mbla.model.loads.load_kind import CaseKind, Entry, LoadSite, Variant
+from mbla.model.loads.on_soil import carriers_in_words
+from mbla.model.loads.tread import Tread, level
 from mbla.model.loads.vehicle import Axles, axles_in_row, axles_of, remark_upwards
 from mbla.model.selectors import select_blocks
-from mbla.model.soil.names import counted_with_soil, is_cell, named_with_soil
 from mbla.model.wording import vector
 from mbla.questions.travel import Travel as TravelQuestion
 from mbla.questions.travel_position import TravelPosition
@@ -57,6 +58,7 @@ class Travel(Section):
     )
     axles: list[Axle] | None = Field(None, min_length=1, max_length=100, description=AXLES)
     width: PositiveLength | None = Field(None, description=WIDTH)
+    contact: PositiveLength | None = Field(None, description=CONTACT)
     towards: Direction = Field(DOWN, description=TOWARDS)
 
 
@@ -67,7 +69,7 @@ def sound_path(load: Travel) -> Iterator[Finding]:
         if before == here:
             yield Finding("degenerate-line", "must not be the corner before it", "path", number)
     if load.vehicle is not None:
-        for key in given(load, ("axles", "width")):
+        for key in given(load, ("axles", "width", "contact")):
             yield Finding("key-of-another-choice", f"belongs to vehicles.{load.vehicle}: give it there", key)
 
 
@@ -93,9 +95,8 @@ def travel_variants(
         site.refuse(Finding("load-beside-structure", words, *path, "axles" if travel.vehicle is None else "vehicle"))
         return []
     _remark_off_path(entry.factor * axles.forces, [acting for _, _, acting in vehicle], path, site)
-    footprint = LoadFootprint(
-        Below(site.blocks, np.array(travel.towards), chosen), site.fill[through] if through else None, path, site
-    )
+    below, fill = Below(site.blocks, np.array(travel.towards), chosen), site.fill[through] if through else None
+    footprint = LoadFootprint(below, fill, path, site, travel.vehicle or "")
     steps = np.diff(np.array(travel.path), axis=0)
     if not all(footprint.sound(axles.forces, step, axles.tread) for step in steps):
         return []
@@ -103,7 +104,7 @@ def travel_variants(
     found = [_landed(footprint, travel, axles.tread, *each) for each in vehicle]
     bare = [(number, place) for number, (_, place) in enumerate(found, start=1) if place is not None]
     if bare and len(site.selection.faults) == before and not site.selection.partial:
-        _refuse_bare(bare, len(vehicle), footprint)
+        _refuse_bare(bare, len(vehicle), footprint, axles.tread)
     if bare:
         return []
     positions, forces = [], entry.factor * axles.forces
@@ -124,7 +125,7 @@ def _axles(travel: Travel, site: LoadSite) -> Axles:
     if travel.vehicle is not None:
         return axles_of(site.vehicles[travel.vehicle])
     assert travel.force is not None  # a rule of the deck: a force, or a vehicle
-    return axles_in_row(travel.force, travel.axles or [], Tread(travel.width or 0.0))
+    return axles_in_row(travel.force, travel.axles or [], Tread((travel.contact or 0.0, travel.width or 0.0)))
 
 
 Landed: TypeAlias = Sequence[Spread | None]
@@ -173,11 +174,9 @@ def _remark_off_path(forces: FloatArray, acting: Sequence[BoolArray], path: KeyP
     remark_upwards(forces, where, site)
 
 
-def _refuse_bare(bare: list[tuple[int, FloatArray]], count: int, footprint: LoadFootprint) -> None:
+def _refuse_bare(bare: list[tuple[int, FloatArray]], count: int, footprint: LoadFootprint, tread: Tread) -> None:
     (first, point), more = bare[0], len(bare) - 1
-    over = "over no block; change the path, or look for blocks in another direction with towards"
-    if footprint.through is not None:
-        over = f"beyond the blocks under the fill {footprint.through.name}; change the path"
+    over = footprint.bare_words(point, tread, "change the path")
     words = (
         f"position {first} of {count}, at {vector(point)} {footprint.site.units.length},"
         f"{f' and {more} more lie' if more else ' lies'} {over}"
@@ -199,7 +198,7 @@ def _applied(position: TravelPosition, landed: Landed, footprint: LoadFootprint,
     through += f" through fill {footprint.through.name}" if footprint.through is not None else ""
     each_on = [
         f"force {vector(position.forces[axle])} {units.force} at {vector(position.points[axle])} {units.length}"
-        f"{through} on {_blocks_in_words(each, site)}"
+        f"{through} on {carriers_in_words(each.blocks, site)}"
         for axle, each in there
     ]
     words = f"position {position.number} of {position.count}"
@@ -209,13 +208,6 @@ def _applied(position: TravelPosition, landed: Landed, footprint: LoadFootprint,
     words += f", {off} of {len(landed)} axles off the path" if off else ""
     apart = not position.spread and len(blocks) == sum(len(each.blocks) for _, each in there)
     return AppliedLoad(blocks, wrenches, f"{' and '.join(each_on)}, {words}", at_point=apart)
-
-
-def _blocks_in_words(landed: Spread, site: LoadSite) -> str:
-    """``ring[4]``, ``7 blocks``, ``soil road``."""
-    under = np.unique(landed.blocks)
-    one = len(under) == 1 or is_cell(site.blocks)[under].all()
-    return named_with_soil(under, site.blocks) if one else counted_with_soil(under, site.blocks)
 
 
 def _remark_parts(name: str, forces: FloatArray, positions: Sequence[Landed], footprint: LoadFootprint) -> None:

@@ -16,9 +16,10 @@ from mbla.deck.sections.vehicles import DOWN, TOWARDS, Axle, Vehicle
 from mbla.errors import Finding
 from mbla.model.applied_load import AppliedLoad
 from mbla.model.loads.blocks_under import Below
-from mbla.model.loads.load_footprint import LoadFootprint, Tread, level, on_blocks
+from mbla.model.loads.load_footprint import LoadFootprint, on_blocks
 from mbla.model.loads.load_kind import Entry, LoadKind, LoadSite
-from mbla.model.soil.names import counted_with_soil
+from mbla.model.loads.on_soil import carriers_in_words
+from mbla.model.loads.tread import Tread, level
 from mbla.model.solids.plane import unit
 from mbla.model.wording import counted, vector
 
@@ -56,9 +57,9 @@ def axles_in_row(force: Sequence[float], others: Sequence[Axle], tread: Tread) -
 
 def axles_of(vehicle: Vehicle) -> Axles:
     """Axles of a vehicle of the deck."""
-    tread = Tread(vehicle.width or 0.0)
+    tread = Tread((vehicle.contact or 0.0, vehicle.width or 0.0))
     if vehicle.wheels is not None:
-        tread = Tread(gauge=vehicle.wheels.gauge, contact=vehicle.wheels.contact or (0.0, 0.0))
+        tread = Tread(vehicle.wheels.contact or (0.0, 0.0), vehicle.wheels.gauge)
     return axles_in_row(vehicle.force, vehicle.axles, tread)
 
 
@@ -80,7 +81,8 @@ def vehicle_load(entry: Entry, blocks: IntArray | None, site: LoadSite) -> Appli
     chosen = np.arange(len(site.blocks)) if blocks is None else blocks
     here = (*entry.path, "vehicle")
     remark_upwards(entry.load.factor * axles.forces, ".".join(map(str, here)), site)
-    footprint = LoadFootprint(Below(site.blocks, np.array(stands.towards), chosen), through, here, site)
+    below = Below(site.blocks, np.array(stands.towards), chosen)
+    footprint = LoadFootprint(below, through, here, site, stands.name)
     way = unit(stands.along)
     if not footprint.sound(axles.forces, way, axles.tread):
         return None
@@ -92,10 +94,8 @@ def vehicle_load(entry: Entry, blocks: IntArray | None, site: LoadSite) -> Appli
         if len(site.selection.faults) == before and not site.selection.partial:
             message = "all of it goes beyond the blocks under the fill: move it"
             if bare:
-                message = (
-                    f"the axle at {vector(bare[0])} {site.units.length} lies over no block; move it, or look for "
-                    "blocks in another direction with towards"
-                )
+                where = f"at {vector(bare[0])} {site.units.length}"
+                message = f"the axle {where} lies {footprint.bare_words(bare[0], axles.tread, 'move it')}"
             site.refuse(Finding("load-beside-structure", message, *here))
         return None
     landed = [each for each in found if each is not None]
@@ -103,8 +103,9 @@ def vehicle_load(entry: Entry, blocks: IntArray | None, site: LoadSite) -> Appli
     footprint.remark_beyond(words, axles.forces, landed)
     footprint.remark_met(words, axles.forces, landed)
     spread = axles.tread.words(site.units) + ("" if through is None else f" through fill {through.name}")
-    words = f"{words}, {counted(len(places), 'axle')}{spread} on {counted_with_soil(unique, site.blocks)}"
-    return AppliedLoad(unique, total, words)
+    return AppliedLoad(
+        unique, total, f"{words}, {counted(len(places), 'axle')}{spread} on {carriers_in_words(unique, site)}"
+    )
 
 
 register_load(
