@@ -2,11 +2,31 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from mbla.arrays import FloatArray, IntArray, summed
+
+
+@dataclass(frozen=True)
+class Patches:
+    """Rectangles and lines on which axles stand, each with an even part of the load.
+
+    corners : (n, 4, 3) in order; of a line two pairs of them are the same
+    forces  : (n, 3) on each
+    blocks  : (n,) under the middle of each; on fill that carries most of the axle
+    spreads : they stand on fill, and what lands of them acts on blocks below
+    """
+
+    corners: FloatArray
+    forces: FloatArray
+    blocks: IntArray
+    spreads: bool = False
+
+
+NO_PATCHES = Patches(np.zeros((0, 4, 3)), np.zeros((0, 3)), np.zeros(0, dtype=np.int64))
 
 
 @dataclass(frozen=True)
@@ -22,6 +42,7 @@ class AppliedLoad:
     follows   : in a pushover it turns with its block
     at_point  : it is one force at one point of each block; others are spread over their blocks
     of_water  : it is ground water in soil of cells, on these and on what they touch
+    patches   : on which it stands, of axles that have an extent
     """
 
     blocks: IntArray
@@ -32,11 +53,23 @@ class AppliedLoad:
     follows: bool = False
     at_point: bool = False
     of_water: bool = False
+    patches: Patches = NO_PATCHES
 
     def times(self, factor: float) -> AppliedLoad:
         """The load with a factor, which is no acceleration in g any more."""
         words = f"{factor:.6g} times {self.words}"
-        return replace(self, wrenches=factor * self.wrenches, words=words, in_g=False)
+        patches = replace(self.patches, forces=factor * self.patches.forces)
+        return replace(self, wrenches=factor * self.wrenches, words=words, in_g=False, patches=patches)
+
+
+def joined_patches(parts: Sequence[Patches]) -> Patches:
+    """All of some patches, one after the other."""
+    if not parts:
+        return NO_PATCHES
+    corners, forces, blocks = (
+        np.concatenate([getattr(part, name) for part in parts]) for name in ("corners", "forces", "blocks")
+    )
+    return Patches(corners, forces, blocks, parts[0].spreads)
 
 
 def without_forces(words: str) -> AppliedLoad:

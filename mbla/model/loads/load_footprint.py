@@ -10,14 +10,15 @@ from functools import cached_property
 
 import numpy as np
 
-from mbla.arrays import FloatArray, IntArray, summed
+from mbla.arrays import FloatArray, IntArray
 from mbla.errors import Finding, KeyPath, Notice
-from mbla.model.applied_load import sum_on_blocks, wrenches_of
+from mbla.model.applied_load import Patches
 from mbla.model.fill.dispersal import Spread, beside, emerging, spread
 from mbla.model.fill.fill import FillBody
 from mbla.model.loads.blocks_under import Below
 from mbla.model.loads.load_kind import LoadSite
 from mbla.model.loads.on_soil import refuse_without_length
+from mbla.model.loads.spreads import most_laden, share_of, together
 from mbla.model.loads.tread import Tread, across, level
 from mbla.model.wording import named, vector
 from mbla.process.late import shapely
@@ -30,14 +31,6 @@ NEAR = 1e-3
 """share of the size of a block that a load may stand beside the fill, or a block rise out of it under the load"""
 GAUSS = 0.5 / 3**0.5
 """of the side of a contact, from its middle to the two places that stand for it: its second moment is theirs"""
-
-
-def on_blocks(landed: Sequence[Spread], forces: FloatArray, site: LoadSite) -> tuple[IntArray, FloatArray]:
-    """Blocks, each once, ascending, and the wrenches on them, (n, 15), of forces (m, 3) by where each lands, (m,)."""
-    under = np.concatenate([each.blocks for each in landed])
-    shared = np.concatenate([each.shares[:, None] * force for each, force in zip(landed, forces, strict=True)])
-    points = np.concatenate([each.points for each in landed])
-    return sum_on_blocks(under, wrenches_of(shared, points, site.blocks.centroids[under]))
 
 
 @dataclass(frozen=True)
@@ -91,7 +84,7 @@ class LoadFootprint:
         landed = [each for each in found if each is not None]
         if len(landed) < len(found) or self._without_length(landed, along, tread):
             return None
-        return landed[0] if len(landed) == 1 else _together(landed)
+        return landed[0] if len(landed) == 1 else together(landed)
 
     def _without_length(self, landed: Sequence[Spread], along: FloatArray, tread: Tread) -> bool:
         """Whether an axle stands on soil of cells without a length; leaves a fault."""
@@ -220,6 +213,19 @@ class LoadFootprint:
             self.site.refuse(Finding("load-not-on-fill", words, *self.path))
         return not slanting.any()
 
+    def patches_of(
+        self, place: FloatArray, along: FloatArray, tread: Tread, force: FloatArray, landed: Spread
+    ) -> Patches:
+        """What an axle with its middle at a place, (3,), stands on, where it landed."""
+        on_top = place if self.through is None else np.append(place[:2], self.through.tops(place))
+        corners = tread.corners(on_top, along)
+        count = len(corners)
+        under = np.full(count, most_laden(landed))
+        if self.through is None and count:
+            middles = self.below.at(corners.mean(axis=1))
+            under = np.where(middles >= 0, middles, under)
+        return Patches(corners, np.tile(force / max(count, 1), (count, 1)), under, self.through is not None)
+
     def bare_words(self, place: FloatArray, tread: Tread, change: str) -> str:
         """What an axle at a place, (3,), is over where part of it lies over no block, and what is to be done.
 
@@ -272,21 +278,3 @@ class LoadFootprint:
                 f"{named(others, blocks.name)} from beside, and is left out: give what it does there as loads"
             )
             self.site.warn("load-off-fill", message)
-
-
-def _together(parts: Sequence[Spread]) -> Spread:
-    """Where equal parts of a load land, as one; a part that lands on no block goes beyond."""
-    shares = np.concatenate([each.shares for each in parts]) / len(parts)
-    points = np.concatenate([each.points for each in parts])
-    blocks, row = np.unique(np.concatenate([each.blocks for each in parts]), return_inverse=True)
-    total = summed(row, shares, len(blocks))
-    means = summed(row, shares[:, None] * points, len(blocks)) / total[:, None]
-    beyond = float(np.mean([each.beyond if len(each.blocks) else 1.0 for each in parts]))
-    met = float(np.mean([each.met if len(each.blocks) else 0.0 for each in parts]))
-    return Spread(blocks, total, means, beyond, met, np.unique(np.concatenate([each.others for each in parts])))
-
-
-def share_of(forces: FloatArray, shares: Sequence[float]) -> float:
-    """Share of the sum of forces (n, 3), by the share of each, (n,)."""
-    sizes = np.linalg.norm(forces, axis=1)
-    return float(sizes @ np.array(shares) / sizes.sum()) if sizes.any() else 0.0

@@ -23,12 +23,13 @@ from mbla.deck.quantities import Direction, Force, Name, Point, Positions, Posit
 from mbla.deck.section import Section, exactly_one_of, given, rule
 from mbla.deck.sections.vehicles import CONTACT, DOWN, TOWARDS, WIDTH, Axle
 from mbla.errors import Finding, KeyPath, Notice
-from mbla.model.applied_load import AppliedLoad
+from mbla.model.applied_load import AppliedLoad, joined_patches
 from mbla.model.fill.dispersal import Spread
 from mbla.model.loads.blocks_under import Below
-from mbla.model.loads.load_footprint import LoadFootprint, on_blocks, share_of
+from mbla.model.loads.load_footprint import LoadFootprint
 from mbla.model.loads.load_kind import CaseKind, Entry, LoadSite, Variant
 from mbla.model.loads.on_soil import carriers_in_words
+from mbla.model.loads.spreads import most_laden, on_blocks, share_of
 from mbla.model.loads.tread import Tread, level
 from mbla.model.loads.vehicle import Axles, axles_in_row, axles_of, remark_upwards
 from mbla.model.selectors import select_blocks
@@ -111,10 +112,10 @@ def travel_variants(
     for number, ((points, distances, _), (landed, _)) in enumerate(zip(vehicle, found, strict=True), start=1):
         if footprint.through is not None:
             points[:, 2] = footprint.through.tops(points)
-        under = np.array([_most(each) for each in landed])
+        under = np.array([most_laden(each) for each in landed])
         spread = footprint.through is not None or axles.tread != Tread()
         position = TravelPosition(name, number, len(vehicle), points, distances, forces, under, spread)
-        applied = replace(_applied(position, landed, footprint, axles.tread), follows=entry.load.follows)
+        applied = replace(_applied(position, landed, footprint, axles.tread, travel), follows=entry.load.follows)
         positions.append(Variant(applied, TravelQuestion(position)))
     _remark_parts(name, axles.forces, [landed for landed, _ in found], footprint)
     return positions
@@ -139,8 +140,7 @@ def _landed(
     found: list[Spread | None] = [None] * len(points)
     bare = []
     for axle in np.flatnonzero(acting).tolist():
-        way = level(_way_at(travel, float(distances[axle])))
-        found[axle] = footprint.of_axle(points[axle], way, tread)
+        found[axle] = footprint.of_axle(points[axle], _level_way(travel, float(distances[axle])), tread)
         if found[axle] is None:
             bare.append(points[axle])
     if not bare and not any(each is not None and len(each.blocks) for each in found):
@@ -148,11 +148,11 @@ def _landed(
     return found, bare[0] if bare else None
 
 
-def _way_at(travel: Travel, distance: float) -> FloatArray:
-    """The way of the path at a distance from its beginning, (3,)."""
+def _level_way(travel: Travel, distance: float) -> FloatArray:
+    """The level direction of the path at a distance from its beginning, (3,) unit."""
     steps = np.diff(np.array(travel.path), axis=0)
     ends = np.cumsum(np.linalg.norm(steps, axis=1))
-    return np.asarray(steps[min(int(np.searchsorted(ends, distance)), len(steps) - 1)])
+    return level(steps[min(int(np.searchsorted(ends, distance)), len(steps) - 1)])
 
 
 def _remark_off_path(forces: FloatArray, acting: Sequence[BoolArray], path: KeyPath, site: LoadSite) -> None:
@@ -184,12 +184,9 @@ def _refuse_bare(bare: list[tuple[int, FloatArray]], count: int, footprint: Load
     footprint.site.refuse(Finding("load-beside-structure", words, *footprint.path))
 
 
-def _most(landed: Spread | None) -> int:
-    """The block that carries most of an axle; -1 for none."""
-    return -1 if landed is None or not len(landed.blocks) else int(landed.blocks[np.argmax(landed.shares)])
-
-
-def _applied(position: TravelPosition, landed: Landed, footprint: LoadFootprint, tread: Tread) -> AppliedLoad:
+def _applied(
+    position: TravelPosition, landed: Landed, footprint: LoadFootprint, tread: Tread, travel: Travel
+) -> AppliedLoad:
     """The forces on the path, on the blocks they land on, which may be the same for some."""
     site, units = footprint.site, footprint.site.units
     there = [(axle, each) for axle, each in enumerate(landed) if each is not None and len(each.blocks)]
@@ -207,7 +204,14 @@ def _applied(position: TravelPosition, landed: Landed, footprint: LoadFootprint,
     off = sum(each is None for each in landed)
     words += f", {off} of {len(landed)} axles off the path" if off else ""
     apart = not position.spread and len(blocks) == sum(len(each.blocks) for _, each in there)
-    return AppliedLoad(blocks, wrenches, f"{' and '.join(each_on)}, {words}", at_point=apart)
+    ways = [_level_way(travel, float(distance)) for distance in position.distances]
+    patches = [
+        footprint.patches_of(position.points[axle], ways[axle], tread, position.forces[axle], each)
+        for axle, each in there
+    ]
+    return AppliedLoad(
+        blocks, wrenches, f"{' and '.join(each_on)}, {words}", at_point=apart, patches=joined_patches(patches)
+    )
 
 
 def _remark_parts(name: str, forces: FloatArray, positions: Sequence[Landed], footprint: LoadFootprint) -> None:

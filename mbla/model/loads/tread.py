@@ -37,8 +37,8 @@ class Tread:
         """Of its rectangles, (2, 3)."""
         return np.stack([self.contact[0] * along, self.contact[1] * across(along)])
 
-    def patches(self, place: FloatArray, along: FloatArray) -> FloatArray:
-        """Corners of its rectangles, (n, 4, 3); none of a point, and of a line all of it."""
+    def corners(self, place: FloatArray, along: FloatArray) -> FloatArray:
+        """Of its rectangles, (n, 4, 3); none of a point, and of a line both ends twice."""
         sides = self.sides(along)
         corners = np.array([[-0.5, -0.5], [0.5, -0.5], [0.5, 0.5], [-0.5, 0.5]]) @ sides
         places = self.places(place, along) if any(self.contact) else []

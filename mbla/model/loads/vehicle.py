@@ -14,11 +14,12 @@ from mbla.deck.quantities import Direction, Name, Point
 from mbla.deck.section import Section
 from mbla.deck.sections.vehicles import DOWN, TOWARDS, Axle, Vehicle
 from mbla.errors import Finding
-from mbla.model.applied_load import AppliedLoad
+from mbla.model.applied_load import AppliedLoad, joined_patches
 from mbla.model.loads.blocks_under import Below
-from mbla.model.loads.load_footprint import LoadFootprint, on_blocks
+from mbla.model.loads.load_footprint import LoadFootprint
 from mbla.model.loads.load_kind import Entry, LoadKind, LoadSite
 from mbla.model.loads.on_soil import carriers_in_words
+from mbla.model.loads.spreads import on_blocks
 from mbla.model.loads.tread import Tread, level
 from mbla.model.solids.plane import unit
 from mbla.model.wording import counted, vector
@@ -100,12 +101,13 @@ def vehicle_load(entry: Entry, blocks: IntArray | None, site: LoadSite) -> Appli
         return None
     landed = [each for each in found if each is not None]
     unique, total = on_blocks(landed, axles.forces, site)
+    stood = zip(places, axles.forces, landed, strict=True)
+    patches = [footprint.patches_of(place, level(way), axles.tread, *each) for place, *each in stood]
     footprint.remark_beyond(words, axles.forces, landed)
     footprint.remark_met(words, axles.forces, landed)
     spread = axles.tread.words(site.units) + ("" if through is None else f" through fill {through.name}")
-    return AppliedLoad(
-        unique, total, f"{words}, {counted(len(places), 'axle')}{spread} on {carriers_in_words(unique, site)}"
-    )
+    words = f"{words}, {counted(len(places), 'axle')}{spread} on {carriers_in_words(unique, site)}"
+    return AppliedLoad(unique, total, words, patches=joined_patches(patches))
 
 
 register_load(

@@ -16,7 +16,7 @@ import shapely
 from mbla.arrays import FloatArray, IntArray
 from mbla.deck.deck import Deck
 from mbla.errors import DeckError, KeyPath, Notice
-from mbla.model.applied_load import AppliedLoad
+from mbla.model.applied_load import AppliedLoad, joined_patches
 from mbla.model.fill.fill import CarriedFill
 from mbla.model.join import polyhedra_of
 from mbla.model.model import Ground, LoadCase, Model, Pushing
@@ -203,7 +203,15 @@ class _OnBoth:
         own[load.blocks] = load.wrenches
         acted_on = np.union1d(load.blocks, self.mirror.image_of[load.blocks])
         both = np.hstack([self.loads(own[:, :6]), self.levers(own[:, 6:], own)])
-        return replace(load, blocks=acted_on, wrenches=both[acted_on])
+        stands, reflection = load.patches, self.mirror.reflection
+        images = replace(
+            stands,
+            corners=reflection.points(stands.corners),
+            forces=stands.forces @ reflection.matrix.T,
+            blocks=self.mirror.image_of[stands.blocks],
+        )
+        patches = joined_patches([stands, images])
+        return replace(load, blocks=acted_on, wrenches=both[acted_on], patches=patches)
 
     def pushing(self, push: Pushing, case: LoadCase) -> Pushing:
         """What is pushed, and the loads as they turn."""

@@ -73,7 +73,7 @@ def drawing_of(scene: PictureScene, kind: str, view: tuple[float, float] | None 
     """Model, mechanism or forces of a case, in the plane where that can show it and the view is none of space."""
     flat = flat_of(scene, view, kind)
     model, blocks = scene.results.model, scene.model.blocks
-    loads = shown_loads(scene, kind)
+    loads = shown_loads(scene, kind, flat.towards if flat else None)
     held = np.where(model.fixed, FIXED_BLOCK, "").astype(object)
     held[np.setdiff1d(model.guides.blocks, np.flatnonzero(model.fixed))] = GUIDED_BLOCK
     supports = [("fixed", FIXED_BLOCK)] * bool(model.fixed.any())

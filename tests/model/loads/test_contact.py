@@ -136,3 +136,29 @@ def test_what_reaches_past_the_blocks_is_refused(tmp_path: Path) -> None:
         travels(
             tmp_path, "force: [0, 0, -10], contact: 0.4, width: 1", "path: [[0.1, 1.5, 1], [2, 1.5, 1]], positions: 2"
         )
+
+
+def test_what_axles_stand_on(tmp_path: Path) -> None:
+    """Of both wheels a rectangle with half of the force; the factor of the load is in it."""
+    found = build_model(deck(tmp_path, "{vehicle: {name: cart, at: [2.1, 1.5, 1]}, factor: 3}"))
+    (load,) = found.load_cases[0].live
+    assert load.patches.forces.tolist() == [[0, 0, -15]] * 2
+    assert load.patches.corners.mean(axis=1) == pytest.approx(np.array([[2.1, 0.5, 1], [2.1, 2.5, 1]]))
+    assert np.ptp(load.patches.corners[0], axis=0) == pytest.approx([0.3, 0.4, 0])
+    assert found.blocks.centroids[load.patches.blocks, :2].tolist() == [[2.5, 0.5], [2.5, 2.5]]
+    assert not load.patches.spreads
+    on_fill = "{vehicle: {name: cart, at: [2.1, 1.5, 9]}, through: earth}"
+    (load,) = build_model(deck(tmp_path, on_fill, DISPERSAL)).load_cases[0].live
+    assert load.patches.spreads
+    assert load.patches.corners[..., 2] == pytest.approx(1.5)
+
+
+def test_in_a_mirror_axles_stand_on_both_sides(tmp_path: Path) -> None:
+    path = tmp_path / "deck.yaml"
+    deck(tmp_path, "{vehicle: {name: cart, at: [2.1, 1.5, 1]}}")
+    path.write_text(f"{path.read_text()}symmetry: [{{x: 0}}]\n")
+    found = build_model(read_deck(path))
+    (load,) = found.load_cases[0].live
+    assert load.patches.corners[:, :, 0].mean(axis=1) == pytest.approx([2.1, 2.1, -2.1, -2.1])
+    assert load.patches.forces.sum(axis=0) == pytest.approx(load.wrenches[:, :3].sum(axis=0))
+    assert found.blocks.centroids[load.patches.blocks, 0].tolist() == [2.5, 2.5, -2.5, -2.5]

@@ -3,7 +3,7 @@
 A load case knows the force and moment on each block about its centroid. A force F with a moment M across it acts along
 the line through p = c + F × M / F², c the centroid; its arrow ends where that line enters the box around the block.
 Forces that are one acceleration times the mass are one arrow for all blocks. A vehicle has an arrow for each axle that
-is on its path; a load that travels its way, and the arrows of the worst position.
+is on its path, or for each contact of them; a load that travels its way, and the arrows of the worst position.
 """
 
 from __future__ import annotations
@@ -15,11 +15,12 @@ from dataclasses import replace
 import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
-from mbla.model.applied_load import AppliedLoad
+from mbla.model.applied_load import AppliedLoad, joined_patches
 from mbla.model.model import LoadCase, Model
 from mbla.questions.reaction import Settlement
 from mbla.questions.travel_position import NOWHERE, TravelPosition
 from mbla.results.pictures.marks.marks import Mark, arrows, dots, rings, segments
+from mbla.results.pictures.marks.patches import patch_mark
 from mbla.results.pictures.page import CASES, DEAD_LOAD, LIVE_LOAD
 from mbla.results.pictures.scene import PictureScene
 from mbla.results.results import CaseResult
@@ -37,15 +38,18 @@ MOST_CASES = 6
 """load cases whose loads a legend names"""
 
 
-def shown_loads(scene: PictureScene, kind: str) -> list[Mark]:
-    """The live load of the case; of the model those of all load cases shown; the dead load where it is what acts."""
+def shown_loads(scene: PictureScene, kind: str, towards: FloatArray | None = None) -> list[Mark]:
+    """The live load of the case; of the model those of all load cases shown; the dead load where it is what acts.
+
+    towards : (3,) unit, to the eye of a plane figure; None in space
+    """
     case, found = scene.case.load_case, list[Mark]()
     falls = kind == "mechanism" and scene.mechanics is None and scene.case.solution.certificate is not None
     if kind == "model" or falls:
         text = text_of("dead load", case.dead_words)
-        found += marks_of_load(scene, text, DEAD_LOAD, scene.dead_load, case.dead)
+        found += marks_of_load(scene, text, DEAD_LOAD, scene.dead_load, case.dead, towards=towards)
     if kind != "model":
-        return found + live_marks(scene, case, "live load", LIVE_LOAD, place=bool(found))
+        return found + live_marks(scene, case, "live load", LIVE_LOAD, bool(found), towards)
     cases: dict[str, list[CaseResult]] = {}
     for shown in scene.shown_cases:
         cases.setdefault(shown.load_case.deck_name, []).append(shown)
@@ -56,7 +60,7 @@ def shown_loads(scene: PictureScene, kind: str) -> list[Mark]:
             found += path_marks(together, f"{label}, {len(together)} positions" if label else "", colour)
             together = [worst_known(together)]
         for each in together:
-            found += live_marks(scene, each.load_case, label, colour, row + 1)
+            found += live_marks(scene, each.load_case, label, colour, row + 1, towards)
     return found
 
 
@@ -68,11 +72,13 @@ def path_marks(positions: Sequence[CaseResult], label: str, colour: str) -> list
     return [replace(line, widths=np.full(len(line.pairs), 0.3)), dots(label, colour, points, bodies, texts)]
 
 
-def live_marks(scene: PictureScene, case: LoadCase, label: str, colour: str, place: int = 0) -> list[Mark]:
+def live_marks(
+    scene: PictureScene, case: LoadCase, label: str, colour: str, place: int = 0, towards: FloatArray | None = None
+) -> list[Mark]:
     """The live load of a load case, of a vehicle its axles, or the way that a support gives.
 
     label : for the legend; empty for none
-    place : number among the loads of the picture
+    place : number among the loads of the picture; towards : as of ``shown_loads``
     """
     if not case.question.collapses:
         return []
@@ -80,7 +86,7 @@ def live_marks(scene: PictureScene, case: LoadCase, label: str, colour: str, pla
         text = f"{label.replace('live load', '').strip()} {settlement.words}".strip()
         return _of_settlement(scene, text if label else "", colour, settlement)
     text = text_of(label, case.live_words) if label else ""
-    return marks_of_load(scene, text, colour, case.live_load, case.live, case.question.place, place)
+    return marks_of_load(scene, text, colour, case.live_load, case.live, case.question.place, place, towards)
 
 
 def _arrow_above(
@@ -109,13 +115,17 @@ def marks_of_load(
     applied: Sequence[AppliedLoad],
     travel: TravelPosition = NOWHERE,
     place: int = 0,
+    towards: FloatArray | None = None,
 ) -> list[Mark]:
     """Arrows of loads on free blocks about their centroids, (n_blocks, 6); rings of moments without a force.
 
-    applied : that they are the sum of; travel : the vehicle among them, where one travels
+    applied : that they are the sum of; travel : the vehicle among them, where one travels, which is the last of them
+    towards : as of ``shown_loads``
     """
     model, blocks, size = scene.model, scene.model.blocks, scene.size
-    rest = np.where(model.fixed[:, None], 0.0, without_vehicle(blocks, loads, travel))
+    standing = [load for load in applied if len(load.patches.blocks) and not load.patches.spreads]
+    rest = _without(standing, without_vehicle(blocks, loads, travel))
+    rest = np.where(model.fixed[:, None], 0.0, rest)
     found = []
     acceleration, accelerated = np.zeros(3), np.zeros(len(rest), dtype=bool)
     if any(load.on_masses for load in applied):
@@ -128,9 +138,12 @@ def marks_of_load(
     points, left = lines_of_action(blocks.centroids[under], rest[under])
     forces, about = rest[under, :3], rest[:, 3:].copy()
     about[under] = left
-    acting = travel.acting & ~model.fixed[travel.blocks]
-    under, forces = np.append(under, travel.blocks[acting]), np.vstack([forces, travel.forces[acting]])
-    points = np.vstack([points, travel.points[acting]])
+    acting = travel.acting & ~model.fixed[travel.blocks] & (not (standing and applied[-1] is standing[-1]))
+    patches = joined_patches([load.patches for load in standing])
+    free = ~model.fixed[patches.blocks]
+    under = np.concatenate([under, patches.blocks[free], travel.blocks[acting]])
+    forces = np.vstack([forces, patches.forces[free], travel.forces[acting]])
+    points = np.vstack([points, patches.corners[free].mean(axis=1), travel.points[acting]])
     if len(under):
         tips, both = _entries(model, under, points, forces), np.column_stack([under, under])
         if travel.spread:  # the axles on top, and below what lands of them
@@ -138,11 +151,26 @@ def marks_of_load(
         mark = arrows(text, colour, tips, arrow_steps(forces, size), both, [text] * len(under))
         found.append(replace(mark, covered=len(under) > MANY))
     turned = np.flatnonzero(np.linalg.norm(about, axis=1) > NOTHING * _moment_size(model, loads))
-    if len(turned):
-        reach = np.minimum(0.6 * blocks.sizes[turned], LONGEST * size)
-        both = np.column_stack([turned, turned])
-        found += rings(text, colour, blocks.centroids[turned], about[turned], reach, both, text)
-    return found
+    found += _rings_about(scene, turned, about, text, colour) if len(turned) else []
+    stands = joined_patches([load.patches for load in applied])
+    return found + [patch_mark(stands, size, colour, bool(text), towards)] * bool(len(stands.blocks))
+
+
+def _rings_about(scene: PictureScene, turned: IntArray, about: FloatArray, text: str, colour: str) -> list[Mark]:
+    """Rings of moments, (n_blocks, 3), about the centroids of blocks (n,)."""
+    blocks = scene.model.blocks
+    reach, both = np.minimum(0.6 * blocks.sizes[turned], LONGEST * scene.size), np.column_stack([turned, turned])
+    return rings(text, colour, blocks.centroids[turned], about[turned], reach, both, text)
+
+
+def _without(standing: Sequence[AppliedLoad], loads: FloatArray) -> FloatArray:
+    """Loads on blocks, (n_blocks, 6), less those of axles on contacts, which are drawn there."""
+    if not standing:
+        return loads
+    rest = loads.copy()
+    for load in standing:
+        rest[load.blocks] -= load.wrenches[:, :6]
+    return np.where(np.abs(rest) <= SAME**2 * np.abs(loads).max(axis=0), 0.0, rest)
 
 
 def common_acceleration(model: Model, loads: FloatArray) -> tuple[FloatArray, BoolArray]:

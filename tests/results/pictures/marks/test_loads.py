@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from mbla.model.applied_load import AppliedLoad, without_forces
+from mbla.model.applied_load import AppliedLoad, Patches, without_forces, wrenches_of
 from mbla.questions.reaction import Reaction, Settlement
 from mbla.questions.travel_position import NOWHERE, TravelPosition
 from mbla.results.pictures.marks.loads import MANY, arrow_steps, live_marks, marks_of_load, shown_loads
@@ -177,3 +177,30 @@ def test_a_support_that_gives_way_has_an_arrow_along_its_motion_or_a_ring(
     assert all(mark.name == "settlement of brick[0]" for mark in found)
     if kinds == [True]:
         assert found[0].points[:, 2].max() <= 0.0, "below the brick that sinks"
+
+
+def on_patches(spreads: bool) -> tuple[np.ndarray, AppliedLoad]:
+    """An axle of 8 N on two wheels of 0.2 m x 0.1 m on block 2, as if part of it landed on block 1."""
+    corners = np.array([[-0.1, -0.05, 0], [0.1, -0.05, 0], [0.1, 0.05, 0], [-0.1, 0.05, 0]])
+    middles = np.array([[0.5, 0.2, 4.0], [0.5, 0.8, 4.0]])
+    forces, under = np.tile([0, 0, -4.0], (2, 1)), np.array([2, 2])
+    wrenches = wrenches_of(forces, middles, tower_model().blocks.centroids[[1, 2]])
+    patches = Patches(corners + middles[:, None], forces, under, spreads)
+    loads = np.zeros((3, 6))
+    loads[[1, 2]] = wrenches[:, :6]
+    return loads, AppliedLoad(np.array([1, 2]), wrenches, "lorry", patches=patches)
+
+
+def test_axles_on_contacts_have_an_arrow_on_each_and_its_area() -> None:
+    """In a plane figure a line as long as the area seems there; what lands of them on fill has arrows below."""
+    loads, lorry = on_patches(spreads=False)
+    arrow, area = marks(loads, lorry)
+    assert tips(arrow) == pytest.approx(np.array([[0.5, 0.2, 4.0], [0.5, 0.8, 4.0]]))
+    assert len(area.faces) == 2
+    assert np.allclose(area.points[area.faces[0], :2].mean(axis=0), [0.5, 0.2])
+    for towards, length in (([0, -1.0, 0], 0.2), ([1.0, 0, 0], 0.1)):
+        *_, line = marks_of_load(scene(), "load", LIVE_LOAD, loads, (lorry,), towards=np.array(towards))
+        assert np.linalg.norm(np.diff(line.points[line.pairs], axis=1)[:, 0], axis=1) == pytest.approx([length] * 2)
+    below, area = marks(*on_patches(spreads=True))
+    assert below.bodies[::2, 0].tolist() == [1, 2]
+    assert len(area.faces) == 2
