@@ -1,10 +1,11 @@
 """Load factor of a travelling load over its position, above the structure cut along the path, on one axis.
 
-The section shows the load where it is worst, and nowhere else.
+The section shows the load where it is worst, and nowhere else, and along what soil of cells slips there.
 """
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -16,16 +17,30 @@ from mbla.results.listing.answers import standing_words
 from mbla.results.listing.text import number
 from mbla.results.outcome import figure_of
 from mbla.results.pictures.diagrams import dress, open_diagrams
+from mbla.results.pictures.marks.joints import slip_lines
 from mbla.results.pictures.options import PictureOptions
-from mbla.results.pictures.page import BLUE, FILL, FIXED_BLOCK, INK, LIVE_LOAD, REST, VERMILION, WARNING, Page
-from mbla.results.pictures.plane import PALE
+from mbla.results.pictures.page import (
+    BLUE,
+    FILL,
+    FIXED_BLOCK,
+    INK,
+    LIVE_LOAD,
+    REST,
+    SLIDE,
+    SOIL,
+    VERMILION,
+    WARNING,
+    Page,
+)
+from mbla.results.pictures.plane import PALE, SEAM, THICK
 from mbla.results.pictures.scene import PictureScene
-from mbla.results.pictures.section import SectionPlane, cut_blocks, cut_fill, plane_along
+from mbla.results.pictures.section import SectionPlane, cut_blocks, cut_fill, lines_along, plane_along, rings_around
 from mbla.results.series import Series
 from mbla.solution.solution import Status
 
-SPREAD = 10.0
-"""greatest over least load factor from which positions of a load are drawn to a logarithmic scale"""
+SPREAD, SHOWN = 10.0, 5.0
+"""greatest over least load factor that an axis shows in full, and at which it ends where there are greater ones, as of
+positions with hardly any load on the structure, which would flatten the rest"""
 LONGEST = 0.1
 """arrow of the greatest axle over the length of the section"""
 LEAST, MOST = 0.2, 0.6
@@ -67,8 +82,12 @@ def draw_series(path: Path, scene: PictureScene, series: Series, options: Pictur
         _draw_positions(page, axes, series)
         dress(page, below, name, f"z [{scene.model.units.length}]", _title(worst, what))
         _draw_section(page, below, scene, plane, blocks)
+        if series.worst is not None:
+            _draw_slip_lines(page, below, replace(scene, case=series.worst), plane)
         if worst is not None:
             _draw_worst(page, (axes, below), worst, plane, LONGEST * float(high[0] - low[0]))
+            _draw_contacts(page, below, series, plane)
+        _add_legend(page, below, scene)
         below.set(xlim=(low[0] - aside, high[0] + aside), ylim=(low[1], high[1]))
         below.set_aspect("equal", adjustable="datalim")
 
@@ -99,9 +118,48 @@ def _draw_section(
     fill = scene.model.fill
     for body in () if fill is None else fill.bodies.values():
         axes.add_collection(polygons(cut_fill(body, plane), facecolors=FILL, edgecolors="none", alpha=PALE, zorder=1))
-    colours = [FIXED_BLOCK if fixed[block] else REST for block, _ in blocks]
-    outlines = [outline for _, outline in blocks]
-    axes.add_collection(polygons(outlines, facecolors=colours, edgecolors=INK, linewidths=0.6 * page.scale, zorder=2))
+    edges = {"edgecolors": INK, "linewidths": 0.6 * page.scale, "zorder": 2}
+    soil = scene.model.soil_of_block
+    for row in range(len(scene.model.soils)):
+        cells = [outline for block, outline in blocks if soil[block] == row]
+        if not cells:
+            continue
+        seam = {"edgecolors": "face", "linewidths": SEAM * page.scale, "zorder": 1.5}  # no paper between cells
+        axes.add_collection(polygons(cells, facecolors=SOIL, **seam))
+        axes.add_collection(page.parts.collections.LineCollection(rings_around(cells, scene.size), **edges))
+    stones = [(block, outline) for block, outline in blocks if soil[block] < 0]
+    colours = [FIXED_BLOCK if fixed[block] else REST for block, _ in stones]
+    axes.add_collection(polygons([outline for _, outline in stones], facecolors=colours, **edges))
+
+
+def _draw_slip_lines(page: Page, axes: Any, scene: PictureScene, plane: SectionPlane) -> None:
+    """Joints of cells that slip in the mechanism of a case, the thicker the faster."""
+    if not scene.model.soils or scene.joint_motion is None:
+        return
+    mark = slip_lines(scene, scene.joint_motion)
+    widths = THICK * page.scale * mark.widths
+    for width in np.unique(widths):
+        lines = lines_along(mark.points[mark.pairs[widths == width]], plane)
+        axes.add_collection(page.parts.collections.LineCollection(lines, colors=SLIDE, linewidths=width, zorder=3))
+
+
+def _draw_contacts(page: Page, axes: Any, series: Series, plane: SectionPlane) -> None:
+    """What the axles stand on where they are worst."""
+    assert series.worst is not None  # who calls knows
+    for load in series.worst.load_case.live:
+        ends = load.patches.corners[:, [[0, 1], [3, 2]]].reshape(-1, 2, 3)
+        lines = page.parts.collections.LineCollection(
+            lines_along(ends, plane), colors=LIVE_LOAD, linewidths=THICK * page.scale, zorder=4
+        )
+        axes.add_collection(lines)
+
+
+def _add_legend(page: Page, axes: Any, scene: PictureScene) -> None:
+    """What the section shows besides blocks, where that is soil of cells."""
+    if scene.model.soils:
+        box = page.box("soil", facecolor=SOIL, edgecolor=INK, linewidth=0.6 * page.scale)
+        line = page.line("slip line where it is worst", color=SLIDE, linewidth=THICK * page.scale)
+        axes.legend(handles=[box, line], fontsize=page.small, frameon=False, loc="upper right")
 
 
 def _draw_worst(
@@ -131,28 +189,32 @@ def _draw_positions(page: Page, axes: Any, series: Series) -> None:
         if chosen.any():
             look = {"markerfacecolor": face, "markeredgecolor": BLUE, "linestyle": "none", "markersize": size}
             axes.plot(place[chosen], values[chosen], marker="o", label=name, **look)
-    _scale_values(page, axes, values[known])
-    for chosen, level, marker, name in (
-        (np.isnan(values), 0.03, "x", "no result"),
-        (np.isinf(values), 0.97, "^", "any multiple is carried"),
+    top = _scale_values(axes, values[known])
+    above, most = known & (values > top), float(values[known].max(initial=0.0))
+    for chosen, level, marker, name, face in (
+        (np.isnan(values), 0.03, "x", "no result", WARNING),
+        (np.isinf(values), 0.97, "^", "any multiple is carried", WARNING),
+        (above, 0.97, "^", f"above the axis, up to {number(most)}", "white"),
     ):
         if chosen.any():
-            ends = axes.get_xaxis_transform()
             heights = np.full(int(chosen.sum()), level)
-            axes.plot(place[chosen], heights, marker, color=WARNING, transform=ends, markersize=1.3 * size, label=name)
+            colour = BLUE if face == "white" else face
+            look = {"transform": axes.get_xaxis_transform(), "markersize": 1.3 * size, "markerfacecolor": face}
+            axes.plot(place[chosen], heights, marker, color=colour, linestyle="none", label=name, **look)
     if series.worst is not None:
         look = {"color": VERMILION, "markersize": 11 * page.scale, "label": "worst", "zorder": 5}
         axes.plot(series.worst.load_case.question.place.distance, figure_of(series.worst), "D", **look)
     axes.legend(fontsize=page.small, frameon=False)
 
 
-def _scale_values(page: Page, axes: Any, values: FloatArray) -> None:
-    """From nothing, or logarithmic where the ends of the path, with hardly any load on it, would hide the rest."""
+def _scale_values(axes: Any, values: FloatArray) -> float:
+    """From nothing to the greatest of values (n,), or a multiple of the least that is beyond; the end of the axis."""
     low, high = float(values.min(initial=np.inf)), float(values.max(initial=-np.inf))
-    if 0.0 < SPREAD * low < high:
-        axes.set_yscale("log")
-        axes.tick_params(which="minor", labelsize=page.small, colors=INK)
-        for axis in (axes.yaxis.set_major_formatter, axes.yaxis.set_minor_formatter):
-            axis(page.parts.ticker.LogFormatter(labelOnlyBase=False, minor_thresholds=(2, 0.5)))
-    elif len(values):
-        axes.set_ylim(bottom=min(0.0, 1.1 * low))
+    if not len(values):
+        axes.set_yticks([])
+        return np.inf
+    axes.set_ylim(bottom=min(0.0, 1.1 * low))
+    if not 0.0 < SPREAD * low < high:
+        return np.inf
+    axes.set_ylim(top=SHOWN * low)
+    return SHOWN * low

@@ -31,8 +31,8 @@ THICK = 0.005
 """radius of the thickest marks over the diagonal of what is seen"""
 SHINE = 0.7
 """strength of marks that blocks hide"""
-EARTH = 0.8
-"""strength of areas that are seen through"""
+EARTH, PALE_LIGHT = 0.7, {"ambient": 0.7, "diffuse": 0.9}
+"""strength of areas that are seen through, and how they take light: little, for they are seen from both sides"""
 MANY = 400
 """blocks from which edges are drawn thinner"""
 ByteArray = npt.NDArray[np.uint8]
@@ -167,11 +167,11 @@ def _actors(vista: Any, plotter: Any, mark: Mark, points: FloatArray, radius: fl
     long = lengths > 2 * radius * mark.widths
     if len(mark.faces):
         meshes.append(vista.PolyData(points, faces=_rows(4 * np.arange(len(mark.faces) + 1), mark.faces)).triangulate())
-    elif mark.arrows:
+    if mark.arrows:
         for start, step, length in zip(ends[long, 0], steps[long], lengths[long], strict=True):
             looks = {"tip_length": 0.3, "tip_radius": 2.8 * radius / length, "shaft_radius": radius / length}
             meshes.append(vista.Arrow(start=start, direction=step, scale=length, **looks))
-    else:
+    elif mark.outlined or not len(mark.faces):
         for width in np.unique(np.round(mark.widths, 1)):
             own = np.round(mark.widths, 1) == width
             lines, dots = ends[own & long].reshape(-1, 3), ends[own & ~long].mean(axis=1)
@@ -184,9 +184,12 @@ def _actors(vista: Any, plotter: Any, mark: Mark, points: FloatArray, radius: fl
             if len(dots):
                 ball = vista.Sphere(radius=1.6 * max(width, 0.1) * radius)
                 meshes.append(vista.PolyData(dots).glyph(geom=ball, orient=False, scale=False))
-    flat = {"ambient": 1.0, "diffuse": 0.0} if len(mark.faces) else {"ambient": 0.42, "diffuse": 0.85}
-    flat |= {"opacity": EARTH} if mark.pale else {}
-    return [plotter.add_mesh(mesh, color=mark.colour, specular=0.0, **flat) for mesh in meshes]
+    plain = {"ambient": 0.42, "diffuse": 0.85}
+    if len(mark.faces):
+        plain = PALE_LIGHT if mark.pale else {"ambient": 1.0, "diffuse": 0.0}
+    through = [{"opacity": EARTH} if mark.pale else {}] + [{}] * len(meshes)  # of the areas, which come first
+    drawn = zip(meshes, through, strict=False)
+    return [plotter.add_mesh(mesh, color=mark.colour, specular=0.0, **plain, **look) for mesh, look in drawn]
 
 
 def _rows(start: Any, items: Any) -> Any:

@@ -1,4 +1,4 @@
-"""A structure cut by an upright plane along the path of a travelling load: outlines of its blocks and of its fill.
+"""A structure cut by an upright plane along the path of a travelling load: outlines of its blocks, fill and soil.
 
 Places are (s, z): s the distance along the path, as travelling loads measure it, z the height.
 """
@@ -90,6 +90,20 @@ def cut_fill(body: FillBody, plane: SectionPlane) -> list[FloatArray]:
     columns = shapely.polygons(plane.places(np.concatenate([points, tops[:, ::-1]], axis=1)))
     together = shapely.union_all(shapely.set_precision(columns, aside))  # no seams between them
     return [np.array(part.exterior.coords) for part in shapely.get_parts(together) if part.geom_type == "Polygon"]
+
+
+def rings_around(outlines: Sequence[FloatArray], size: float) -> list[FloatArray]:
+    """Rings, (n, 2), around what cells cover together, and around holes in it; corners closer than a hair are one."""
+    cells = shapely.set_precision(shapely.polygons([*outlines]), ASIDE * size)
+    parts = shapely.get_parts(shapely.union_all(cells))
+    return [np.array(ring.coords) for part in parts for ring in (part.exterior, *part.interiors)]
+
+
+def lines_along(points: FloatArray, plane: SectionPlane) -> FloatArray:
+    """Lines between points (n, 2, 3) that run along the plane, whatever their distance from it, (k, 2, 2)."""
+    steps = points[:, 1] - points[:, 0]
+    away = np.abs(steps @ plane.across) <= STRAIGHT * np.linalg.norm(steps, axis=1)
+    return plane.places(points[away])
 
 
 def _heights(points: FloatArray, plane: SectionPlane) -> tuple[FloatArray, float]:

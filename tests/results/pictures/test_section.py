@@ -11,7 +11,7 @@ from mbla.model.build import build_model
 from mbla.model.fill.fill import columns
 from mbla.model.model import Model
 from mbla.questions.travel_position import TravelPosition
-from mbla.results.pictures.section import SectionPlane, cut_blocks, cut_fill, plane_along
+from mbla.results.pictures.section import SectionPlane, cut_blocks, cut_fill, lines_along, plane_along, rings_around
 from tests.decks.folder import DECKS
 
 ALONG_X = SectionPlane(np.array([1.0, 2.0, 0.0]), np.array([1.0, 0.0, 0.0]), np.array([0.0, 1.0, 0.0]))
@@ -77,3 +77,18 @@ def test_a_straight_path_has_a_plane() -> None:
 )
 def test_no_other_path_has_one(points: list[list[float]], distances: list[float]) -> None:
     assert plane_along(standing(points, distances)) is None
+
+
+def test_rings_around_cells_leave_out_seams() -> None:
+    """Four quarters of a square ring: one around them, one around the hole."""
+    corners = np.array([[0, 0], [3, 0], [3, 3], [0, 3]], dtype=float)
+    inner = np.array([[1, 1], [2, 1], [2, 2], [1, 2]], dtype=float)
+    cells = [np.array([corners[i], corners[i - 3], inner[i - 3], inner[i]]) for i in range(4)]
+    cells[1] = cells[1] + 1e-9
+    found = rings_around(cells, 4.0)
+    assert sorted(shapely.Polygon(ring).area for ring in found) == pytest.approx([1.0, 9.0], rel=1e-5)
+
+
+def test_lines_along_the_plane() -> None:
+    lines = np.array([[[1.0, 9, 0], [2, 9, 1]], [[1, 0, 0], [1, 4, 0]]])
+    assert lines_along(lines, ALONG_X).tolist() == [[[0.0, 0.0], [1.0, 1.0]]]

@@ -38,6 +38,7 @@ class Mark:
     inside : it lies within the blocks and is seen only through them
     covered : blocks in front of it hide it, where other marks shine through
     pale    : its areas are seen through, and lie behind the blocks of a plane figure
+    outlined : its pairs are edges of its areas and drawn with them in space
     """
 
     name: str
@@ -52,6 +53,7 @@ class Mark:
     inside: bool = False
     covered: bool = False
     pale: bool = False
+    outlined: bool = False
 
 
 def moved(mark: Mark, model: Model, motion: FloatArray) -> FloatArray:

@@ -31,4 +31,4 @@ def patch_mark(patches: Patches, size: float, colour: str, named: bool, towards:
     raised = corners.reshape(-1, 3) + np.array([0.0, 0.0, ABOVE * size])
     sides = np.stack([rows, np.roll(rows, -1, axis=1)], axis=2).reshape(-1, 2)
     widths, texts = np.full(len(sides), 0.3), (NAME,) * (4 * count)
-    return Mark(name, colour, raised, np.repeat(bodies, 4, axis=0), sides, widths, texts, rows)
+    return Mark(name, colour, raised, np.repeat(bodies, 4, axis=0), sides, widths, texts, rows, outlined=True)

@@ -41,6 +41,12 @@ def test_fill_reaches_from_the_blocks_to_its_top(results: Results) -> None:
     np.testing.assert_allclose(z[(z > 1.0) & (z != 2.0)], 2.0 + 0.5 * x[(z > 1.0) & (z != 2.0)])
     assert mark.points.min(axis=0).tolist() == [0.0, 0.0, 1.0]
     assert mark.points.max(axis=0).tolist() == [2.0, 1.0, 3.0]
+    assert mark.outlined
+    ends = mark.points[mark.pairs]
+    upright = np.ptp(ends[:, :, :2], axis=1).max(axis=1) == 0.0
+    assert sorted(ends[upright][:, 0, :2].tolist()) == [[0, 0], [0, 1], [2, 0], [2, 1]]
+    around = np.linalg.norm(np.diff(ends[~upright][:, :, :2], axis=1), axis=2).sum()
+    assert around == pytest.approx(2 * (2 + 1)), "the top once around"
 
 
 def test_of_a_result_file_the_fill_is_that_of_its_deck(results: Results, tmp_path: Path) -> None:
