@@ -127,6 +127,11 @@ USUAL: dict[str, dict[str, Usual]] = {
             "10 kN/m^3",
         )
     },
+    "water": {
+        "unit_weight": Usual(
+            "5 kN/m^3", "20 kN/m^3", "and that of water is 9.81 kN/m^3", "unit_weight", ("kN/m^3", "N/m^3"), "10 kN/m^3"
+        )
+    },
     "height": {"period": Usual(0.0, LONGEST_PERIOD, "is in seconds, and no building's first period is so long")},
     "spectrum": {"a_g": Usual(0.0, MOST_GROUND, OF_GROUND)},
 }
@@ -173,6 +178,9 @@ def _places(content: DeckContent) -> Iterator[tuple[KeyPath, str, Any]]:
     for path, load in _loads(content):
         if load.kind == "pressure":
             yield (*path, "pressure"), "pressure", load.chosen
+    for place, soil in soils_of(content):
+        if soil.water is not None:
+            yield (*place, "water"), "water", soil.water
     for name, case in content.load_cases.items():
         if case.pushover is not None:
             yield ("load_cases", name, "pushover"), "pushover", case.pushover

@@ -224,6 +224,12 @@ def test_gravity_three_per_cent_off_as_live_load(tmp_path: Path) -> None:
             "ties:\n  - {through: [[0, 0, 0], [1, 0, 0]], diameter: 24, strength: 235 MPa}\ncontacts:",
             'ties[0].diameter = 24: is 24 m, which no bar has; "24 mm" may be meant',
         ),
+        (
+            "contacts:",
+            "fill:\n  soil: {on: block, material: stone, level: 3, cells: {size: 1}, friction_angle: 30, water: "
+            "{level: 3, unit_weight: 9.81}}\ncontacts:",
+            'water.unit_weight = 9.81: is 9.81 N/m^3, and that of water is 9.81 kN/m^3; "9.81 kN/m^3" may be meant',
+        ),
     ],
 )
 def test_values_that_are_mostly_meant_in_another_unit(usual: str, unusual: str, words: str, tmp_path: Path) -> None:
