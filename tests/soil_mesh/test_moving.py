@@ -40,7 +40,7 @@ def test_smooth_wall_has_the_pressure_of_rankine(passive: bool) -> None:
 
 
 def test_a_mesh_is_moved_for_two_load_cases_at_once() -> None:
-    """Soil of no weight and friction under a strip: the load down, and the same load up, for which it is glued to it."""
+    """Soil of no weight and friction under a strip: the load down and up, as it is glued to it."""
     case = strip(0.0, 0.5, 1.8, 1.0)
     up = replace(case.scene, live=-case.scene.live)
     moved = move_corners([case.scene, up], case.points, case.motions)

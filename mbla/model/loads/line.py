@@ -22,8 +22,9 @@ from mbla.model.fill.dispersal import Spread
 from mbla.model.loads.blocks_under import Below
 from mbla.model.loads.load_footprint import PARALLEL, LoadFootprint
 from mbla.model.loads.load_kind import Entry, LoadKind, LoadSite
-from mbla.model.loads.on_soil import LAY, carriers_in_words, refuse_without_length
+from mbla.model.loads.on_soil import LAY, refuse_without_length
 from mbla.model.loads.tread import Tread, level
+from mbla.model.soil.names import carriers_in_words
 from mbla.model.wording import vector
 
 
@@ -78,7 +79,7 @@ def line_load(entry: Entry, blocks: IntArray | None, site: LoadSite) -> AppliedL
     wrenches = wrenches_of(forces, found.points, site.blocks.centroids[found.blocks])
     unique, total = sum_on_blocks(found.blocks, wrenches)
     spread = "" if through is None else f" through fill {through.name}"
-    return AppliedLoad(unique, total, f"{words}{spread} on {carriers_in_words(unique, site)}")
+    return AppliedLoad(unique, total, f"{words}{spread} on {carriers_in_words(unique, site.blocks)}")
 
 
 def _landed(footprint: LoadFootprint, line: LineLoad, begin: FloatArray, end: FloatArray, words: str) -> Spread | None:

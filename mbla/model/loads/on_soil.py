@@ -8,11 +8,10 @@ from __future__ import annotations
 import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
-from mbla.deck.sections.soil import SOIL
 from mbla.errors import Finding, KeyPath
 from mbla.model.loads.load_kind import LoadSite
+from mbla.model.soil.names import soil_name
 from mbla.model.soil.soil_mesh import SoilMesh
-from mbla.model.wording import counted
 
 NO_LENGTH = 1e-6
 """sine of the angle up to which a line runs across the plane of cells"""
@@ -24,17 +23,6 @@ def soils_under(blocks: IntArray, site: LoadSite) -> list[SoilMesh]:
     return [soil for soil in site.soils if _cells_of(soil, blocks).any()]
 
 
-def carriers_in_words(blocks: IntArray, site: LoadSite) -> str:
-    """``ring[4]``, ``7 blocks``, ``soil road``, ``1 block and soil road``: what blocks (n,) are."""
-    under, soils = np.unique(blocks), soils_under(blocks, site)
-    cells = np.array([_cells_of(soil, under) for soil in soils], dtype=bool).any(axis=0) if soils else under < 0
-    own = under[~cells]
-    if len(own) == 1 and not soils:
-        return site.blocks.name(int(own[0]))
-    words = [counted(len(own), "block")] if len(own) else []
-    return " and ".join([*words, *(_name(soil) for soil in soils)])
-
-
 def refuse_without_length(blocks: IntArray, sides: FloatArray, remedy: str, path: KeyPath, site: LoadSite) -> bool:
     """Whether a load that presses along sides (n, 3) on blocks stands on no length of soil; leaves a fault.
 
@@ -44,7 +32,7 @@ def refuse_without_length(blocks: IntArray, sides: FloatArray, remedy: str, path
         lengths = np.linalg.norm(sides, axis=1)
         if (np.abs(sides @ soil.axes[0]) > NO_LENGTH * lengths).any():
             continue
-        words = f"stands on {_name(soil)} with no length along it, and a single cell would carry it: {remedy}"
+        words = f"stands on {soil_name(soil.name)} with no length along it, and a single cell would carry it: {remedy}"
         site.refuse(Finding("load-on-cell", words, *path))
         return True
     return False
@@ -54,13 +42,9 @@ def refuse_on_cells(kind: str, blocks: IntArray | None, path: KeyPath, site: Loa
     """Whether the blocks that a load of one block is given are cells of soil; leaves a fault."""
     soils = [] if blocks is None else soils_under(blocks, site)
     if soils:
-        words = f"a {kind} on {_name(soils[0])} would act on one cell, which is where the mesh puts it: {LAY}"
+        words = f"a {kind} on {soil_name(soils[0].name)} would act on one cell, which is where the mesh puts it: {LAY}"
         site.refuse(Finding("load-on-cell", words, *path))
     return bool(soils)
-
-
-def _name(soil: SoilMesh) -> str:
-    return SOIL if soil.name == SOIL else f"{SOIL} {soil.name}"
 
 
 def _cells_of(soil: SoilMesh, blocks: IntArray) -> BoolArray:

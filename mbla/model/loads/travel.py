@@ -28,11 +28,11 @@ from mbla.model.fill.dispersal import Spread
 from mbla.model.loads.blocks_under import Below
 from mbla.model.loads.load_footprint import LoadFootprint
 from mbla.model.loads.load_kind import CaseKind, Entry, LoadSite, Variant
-from mbla.model.loads.on_soil import carriers_in_words
 from mbla.model.loads.spreads import most_laden, on_blocks, share_of
 from mbla.model.loads.tread import Tread, level
 from mbla.model.loads.vehicle import Axles, axles_in_row, axles_of, remark_upwards
 from mbla.model.selectors import select_blocks
+from mbla.model.soil.names import carriers_in_words
 from mbla.model.wording import vector
 from mbla.questions.travel import Travel as TravelQuestion
 from mbla.questions.travel_position import TravelPosition
@@ -195,7 +195,7 @@ def _applied(
     through += f" through fill {footprint.through.name}" if footprint.through is not None else ""
     each_on = [
         f"force {vector(position.forces[axle])} {units.force} at {vector(position.points[axle])} {units.length}"
-        f"{through} on {carriers_in_words(each.blocks, site)}"
+        f"{through} on {carriers_in_words(each.blocks, site.blocks)}"
         for axle, each in there
     ]
     words = f"position {position.number} of {position.count}"

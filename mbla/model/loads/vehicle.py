@@ -18,9 +18,9 @@ from mbla.model.applied_load import AppliedLoad, joined_patches
 from mbla.model.loads.blocks_under import Below
 from mbla.model.loads.load_footprint import LoadFootprint
 from mbla.model.loads.load_kind import Entry, LoadKind, LoadSite
-from mbla.model.loads.on_soil import carriers_in_words
 from mbla.model.loads.spreads import on_blocks
 from mbla.model.loads.tread import Tread, level
+from mbla.model.soil.names import carriers_in_words
 from mbla.model.solids.plane import unit
 from mbla.model.wording import counted, vector
 
@@ -106,7 +106,7 @@ def vehicle_load(entry: Entry, blocks: IntArray | None, site: LoadSite) -> Appli
     footprint.remark_beyond(words, axles.forces, landed)
     footprint.remark_met(words, axles.forces, landed)
     spread = axles.tread.words(site.units) + ("" if through is None else f" through fill {through.name}")
-    words = f"{words}, {counted(len(places), 'axle')}{spread} on {carriers_in_words(unique, site)}"
+    words = f"{words}, {counted(len(places), 'axle')}{spread} on {carriers_in_words(unique, site.blocks)}"
     return AppliedLoad(unique, total, words, patches=joined_patches(patches))
 
 

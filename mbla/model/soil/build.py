@@ -19,7 +19,7 @@ from mbla.model.blocks.soil import SoilItem
 from mbla.model.items import density_of
 from mbla.model.model import Ground, Joint
 from mbla.model.selectors import BlockSelection, select_blocks
-from mbla.model.soil.cells import build_soil, mesh_of
+from mbla.model.soil.cells import build_soil, mesh_of, refuse_larger
 from mbla.model.soil.fill_region import fill_region
 from mbla.model.soil.item_region import item_region
 from mbla.model.soil.plane_mesh import PlaneMesh
@@ -83,6 +83,7 @@ def _with_soil(
         return replace(soils, partial=soils.partial | {name})
     assert section.cells is not None
     corners = SoilCorners(section.cells.size, None, moved=False) if corners is None else corners
+    refuse_larger(region, section.cells.size)
     mesh = mesh_of(region, corners.size)
     if corners.points is not None:
         mesh = _with_corners(mesh, corners.points, name, corners.size)

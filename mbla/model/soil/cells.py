@@ -38,15 +38,17 @@ class Soil:
     grounds: tuple[Ground, ...]
 
 
-def mesh_of(region: Region, size: float) -> PlaneMesh:
-    """Triangles of about a size in a region; raises ItemRefused where that is larger than it, these are too many, or
-    none fit.
-    """
+def refuse_larger(region: Region, size: float) -> None:
+    """Refuse cells of a size that is larger than the region."""
     left, low, right, high = shapely.total_bounds(region.polygons)
     long = max(right - left, high - low)
     if size > long * (1 + ROUNDING):
         words = f"must be <= {long:.6g}, the greatest extent of the soil: cells are a small part of it"
         raise ItemRefused(Finding("out-of-bounds", words, "cells", "size"))
+
+
+def mesh_of(region: Region, size: float) -> PlaneMesh:
+    """Triangles of about a size in a region; raises ItemRefused where these are too many, or none fit."""
     about = region.area / (AREA * size**2)
     if about > MOST:
         makes = f"makes {_rounded_up(about):,.0f} cells" if about < 1e12 else "makes more than 1,000,000,000,000 cells"

@@ -28,6 +28,16 @@ def counted_with_soil(which: IntArray, blocks: Blocks) -> str:
     return " and ".join([*([counted(len(which) - cells, "block")] if cells < len(which) else []), *soil])
 
 
+def carriers_in_words(which: IntArray, blocks: Blocks) -> str:
+    """``ring[4]``, ``7 blocks``, ``soil road``, ``1 block and soil road``: what blocks (n,) are."""
+    which = np.unique(which)
+    cells = is_cell(blocks)[which]
+    if len(which) == 1 and not cells.any():
+        return blocks.name(int(which[0]))
+    soils = [soil_name(name) for name in dict.fromkeys(blocks.groups[cell] for cell in which[cells].tolist())]
+    return " and ".join([*([counted(int((~cells).sum()), "block")] if not cells.all() else []), *soils])
+
+
 def named_with_soil(which: IntArray, blocks: Blocks) -> str:
     """Of blocks (n,) the names, of cells that of the soil: ``soil backfill and wall[0], wall[2]``."""
     cells = is_cell(blocks)[which]

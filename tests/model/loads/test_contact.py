@@ -16,6 +16,7 @@ from mbla.errors import DeckError
 from mbla.model import build_model
 from mbla.model.model import Model
 from tests.model.loads.test_line import resultant
+from tests.model.soil.decks import moved_to
 
 DECK = """mbla: 1
 materials: {{stone: {{density: 2000}}, earth: {{density: 1800}}}}
@@ -106,7 +107,7 @@ def test_on_soil_it_presses_on_the_tops_of_cells_under_it(tmp_path: Path, keys: 
     (soil,) = build_model(read).soils
     on_top = np.isclose(soil.points[:, 1], 1.5) & ~soil.fixed
     moved = soil.points + np.outer(on_top, [0.06, 0.0])
-    for found in (build_model(read), build_model(read, {"earth": moved})):
+    for found in (build_model(read), build_model(read, moved_to(soil, moved))):
         (soil,) = found.soils
         tops = soil.points[soil.triangles]
         for case in found.load_cases:

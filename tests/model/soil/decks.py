@@ -8,12 +8,13 @@ from types import MappingProxyType
 
 import pytest
 
+from mbla.arrays import FloatArray
 from mbla.deck import read_deck
 from mbla.deck.deck import Deck
 from mbla.errors import DeckError
 from mbla.model import build_model
 from mbla.model.model import Model
-from mbla.model.soil.soil_mesh import SoilCorners
+from mbla.model.soil.soil_mesh import SoilCorners, SoilMesh
 
 TEXT = """mbla: 1
 materials: {{stone: {{unit_weight: "24 kN/m^3"}}, earth: {{unit_weight: "18 kN/m^3"}}}}
@@ -76,3 +77,8 @@ def refused(folder: Path, *blocks: str, fill: str = "", supports: str = "[]") ->
     with pytest.raises(DeckError) as caught:
         model(folder, *blocks, fill=fill, supports=supports)
     return [(fault.key, str(fault.message)) for fault in caught.value.faults]
+
+
+def moved_to(soil: SoilMesh, points: FloatArray) -> dict[str, SoilCorners]:
+    """Its corners at other points (n, 2), by its name."""
+    return {soil.name: SoilCorners(soil.size, points, moved=True)}

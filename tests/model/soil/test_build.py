@@ -9,11 +9,11 @@ import pytest
 
 from mbla.deck import read_deck
 from mbla.model import build_model
-from mbla.model.soil.soil_mesh import SoilCorners, StrangeCornersError
+from mbla.model.soil.soil_mesh import StrangeCornersError
 from mbla.process.run_options import RunOptions
 from mbla.results.outcome import answer_of
 from mbla.run import run
-from tests.model.soil.decks import ARCH, BACKFILL, FOOTING, GROUND, WALL, deck, fill, model, refused
+from tests.model.soil.decks import ARCH, BACKFILL, FOOTING, GROUND, WALL, deck, fill, model, moved_to, refused
 from tests.model.soil.test_fill_region import missing
 
 
@@ -23,7 +23,7 @@ def test_the_same_with_points_moved(tmp_path: Path) -> None:
     shifts = np.where(soil.inside[:, None], [0.02, -0.01], 0.03 * soil.along)
     moved = build_model(
         deck(tmp_path, WALL, BACKFILL, supports=GROUND),
-        {"backfill": SoilCorners(soil.size, soil.points + shifts, moved=True)},
+        moved_to(soil, soil.points + shifts),
     )
     (other,) = moved.soils
     assert np.array_equal(other.points, soil.points + shifts)
@@ -41,7 +41,7 @@ def test_points_that_are_none_of_it_are_refused(tmp_path: Path) -> None:
     off = 0.01 * soil.along[:, ::-1]
     for points in (soil.points[1:], soil.points[:, ::-1], soil.points + off):
         with pytest.raises(StrangeCornersError, match=r"soil"):
-            build_model(read, {"backfill": SoilCorners(soil.size, points, moved=True)})
+            build_model(read, moved_to(soil, points))
     with pytest.raises(StrangeCornersError, match=r"clay"):
         build_model(read, {"clay": soil.corners})
 

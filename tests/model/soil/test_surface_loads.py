@@ -9,7 +9,7 @@ import pytest
 
 from mbla.arrays import FloatArray
 from mbla.model.model import Model
-from tests.model.soil.decks import ARCH, BACKFILL, GROUND, WALL, fill, model
+from tests.model.soil.decks import ARCH, BACKFILL, GROUND, WALL, fill, model, moved_to
 
 STRIP = "pressure: {value: 1000, normal: [0, 0, 1], box: [[0.33, -1, 0.9], [0.81, 2, 1.1]]}, on: backfill"
 LINE = "line: {from: [0.5, 0, 1], to: [0.5, 1, 1], force_per_length: [0, 0, -7]}, on: backfill"
@@ -27,7 +27,9 @@ def both(folder: Path, loads: str) -> tuple[Model, Model]:
     before = model(folder, WALL, BACKFILL, supports=GROUND, loads=loads)
     (soil,) = before.soils
     shifts = np.where(soil.inside[:, None], [0.02, -0.01], 0.04 * soil.along)
-    return before, model(folder, WALL, BACKFILL, supports=GROUND, loads=loads, soil={"backfill": soil.points + shifts})
+    return before, model(
+        folder, WALL, BACKFILL, supports=GROUND, loads=loads, soil=moved_to(soil, soil.points + shifts)
+    )
 
 
 @pytest.mark.parametrize(

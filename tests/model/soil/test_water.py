@@ -11,7 +11,7 @@ from mbla.arrays import FloatArray
 from mbla.model import build_model
 from mbla.model.applied_load import AppliedLoad
 from mbla.model.model import Model
-from tests.model.soil.decks import ARCH, BACKFILL, GROUND, SIDEWAYS, WALL, deck, fill, model, refused
+from tests.model.soil.decks import ARCH, BACKFILL, GROUND, SIDEWAYS, WALL, deck, fill, model, moved_to, refused
 from tests.model.soil.test_fill_region import area_over_extrados
 
 WEIGHT = 9810.0
@@ -76,7 +76,7 @@ def test_it_follows_points_that_are_moved(tmp_path: Path) -> None:
     before = build_model(read)
     (soil,) = before.soils
     shifts = np.where(soil.inside[:, None], [0.02, -0.01], 0.03 * soil.along)
-    after = build_model(read, {"backfill": soil.points + shifts})
+    after = build_model(read, moved_to(soil, soil.points + shifts))
     loads = [water_of(each) for each in (before, after)]
     for cells in (True, False):
         same = [about(each, load, np.zeros(3), cells=cells) for each, load in zip((before, after), loads, strict=True)]
@@ -98,7 +98,7 @@ def test_a_cell_that_is_hardly_there_does_not_press_twice(tmp_path: Path) -> Non
     beside = beside[soil.inside[beside].any(axis=1)][0]
     apex, foot = beside[soil.inside[beside]][0], beside[on_wall[beside]]
     points[apex] = [1e-5, points[foot, 1].mean()]
-    after = build_model(read, {"backfill": points})
+    after = build_model(read, moved_to(soil, points))
     pushed = [about(each, water_of(each), np.zeros(3), cells=False) for each in (before, after)]
     assert pushed[1] == pytest.approx(pushed[0], rel=1e-9, abs=1e-6)
 
