@@ -59,7 +59,7 @@ def with_loaded_held(cells: Cells, model: Model, load_cases: Sequence[LoadCase])
 
     What of such loads each cell carries follows from where its corners are.
     """
-    loads = [load for case in load_cases for load in (*case.dead, *case.live) if not load.on_masses]
+    loads = [load for case in load_cases for load in (*case.dead, *case.live) if not (load.on_masses or load.of_water)]
     loaded = np.isin(cells.blocks, np.concatenate([np.empty(0, np.int64), *(load.blocks for load in loads)]))
     corners = np.zeros(len(cells.points), dtype=bool)
     corners[cells.triangles[loaded]] = True

@@ -176,10 +176,10 @@ def _loads(
 
 
 def _mass_forces(loads: tuple[AppliedLoad, ...], n_blocks: int) -> FloatArray:
-    """Forces of accelerations on blocks, (n_blocks, 3)."""
+    """Forces of accelerations, and of the lift of water, on blocks, (n_blocks, 3)."""
     total = np.zeros((n_blocks, 3))
     for load in loads:
-        if load.on_masses:
+        if load.on_masses or load.of_water:
             total += summed(load.blocks, load.wrenches[:, :3], n_blocks)
     return total
 

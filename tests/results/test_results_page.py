@@ -16,7 +16,7 @@ import pytest
 from mbla.cli import main
 from mbla.deck.content import OutputSection
 from tests.line import BLOCK
-from tests.results.outputs import write_outputs
+from tests.results.outputs import soil_file, write_outputs
 from tests.results.results_md import PAGE, section, table, tables
 from tests.results.results_page import renewed
 from tests.results.synthetic import full_results
@@ -48,6 +48,12 @@ def pushed(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder / "pushed.out"
 
 
+@pytest.fixture(scope="module")
+def soil(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Result file of a run with soil of cells."""
+    return soil_file(tmp_path_factory.mktemp("soil"))
+
+
 def test_generated_tables_of_the_page_are_those_of_the_program() -> None:
     page = PAGE.read_text(encoding="utf-8")
     assert renewed(page) == page, "write it anew: python -m tests.results.results_page"
@@ -74,9 +80,11 @@ def described() -> dict[str, tuple[str, ...]]:
     return {path: tuple(rest) for path, rest in rows.items()}
 
 
-def test_every_dataset_is_as_the_page_says(full: Path, pushed: Path, described: dict[str, tuple[str, ...]]) -> None:
+def test_every_dataset_is_as_the_page_says(
+    full: Path, pushed: Path, soil: Path, described: dict[str, tuple[str, ...]]
+) -> None:
     written: set[str] = set()
-    for path in (full / "tower.h5", pushed / "pushed.h5"):
+    for path in (full / "tower.h5", pushed / "pushed.h5", soil):
         with h5py.File(path) as file:
             for name, dataset in datasets(file).items():
                 kind, dims, unit, content = described[name]
@@ -121,7 +129,7 @@ def part_of(content: str) -> str:
     return found[1] if found else ""
 
 
-def test_parts_are_named_and_whole(full: Path, pushed: Path, described: dict[str, tuple[str, ...]]) -> None:
+def test_parts_are_named_and_whole(full: Path, pushed: Path, soil: Path, described: dict[str, tuple[str, ...]]) -> None:
     named = {name for row in table("Parts") for name in re.findall(r"`([^`]+)`", row[0].join("``"))}
     parts: dict[str, set[str]] = {}
     for path, (*_, content) in described.items():
@@ -129,7 +137,7 @@ def test_parts_are_named_and_whole(full: Path, pushed: Path, described: dict[str
     answers = ("mechanics", "associative", "least", "torsion", "level")
     general = {re.sub(rf"^({'|'.join(answers)}) (?!lock)", "… ", part) for part in parts if part}
     assert general == named
-    for written in (full / "tower.h5", pushed / "pushed.h5"):
+    for written in (full / "tower.h5", pushed / "pushed.h5", soil):
         with h5py.File(written) as file:
             for case in file["cases"]:
                 one = {name for name in described if name.replace("*", case) in file}

@@ -14,14 +14,14 @@ from mbla.model.applied_load import AppliedLoad
 from mbla.model.loads.load_kind import Entry, LoadKind, LoadSite
 from mbla.model.loads.mass_forces import mass_forces
 from mbla.model.loads.pattern_factors import pattern_factors
-from mbla.model.soil.names import carriers_in_words
+from mbla.model.soil.names import counted_with_soil
 from mbla.model.wording import vector
 
 
 def acceleration_load(entry: Entry, blocks: IntArray | None, site: LoadSite) -> AppliedLoad | None:
     """Mass forces on the blocks selected, (n,), on all unless some are."""
     chosen = np.arange(len(site.blocks)) if blocks is None else blocks
-    where = "" if len(chosen) == len(site.blocks) else f" on {carriers_in_words(chosen, site.blocks)}"
+    where = "" if len(chosen) == len(site.blocks) else f" on {counted_with_soil(chosen, site.blocks)}"
     acceleration = np.array(entry.value) * site.units.standard_gravity
     words = f"acceleration {vector(entry.value)} g{where}"
     by_height, pattern = entry.load.pattern, None

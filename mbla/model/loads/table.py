@@ -13,7 +13,7 @@ from mbla.deck.suggestions import did_you_mean, listed
 from mbla.errors import DeckError, Message
 from mbla.model.applied_load import AppliedLoad, sum_on_blocks, wrenches_of
 from mbla.model.loads.load_kind import Entry, LoadKind, LoadSite
-from mbla.model.soil.names import carriers_in_words
+from mbla.model.soil.names import counted_with_soil
 from mbla.model.tables import CsvTable, TableRefused, read_table
 from mbla.model.wording import counted
 
@@ -46,7 +46,7 @@ def table_load(entry: Entry, blocks: IntArray | None, site: LoadSite) -> Applied
     wrenches = wrenches_of(forces, centroids if points is None else points, centroids)
     wrenches[:, 3:6] += moments
     acted_on, total = sum_on_blocks(rows, wrenches)
-    words = f"{counted(len(rows), 'row')} of {entry.value}: forces on {carriers_in_words(acted_on, site.blocks)}"
+    words = f"{counted(len(rows), 'row')} of {entry.value}: forces on {counted_with_soil(acted_on, site.blocks)}"
     return AppliedLoad(acted_on, total, words)
 
 

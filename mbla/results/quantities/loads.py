@@ -27,7 +27,7 @@ SOIL = Group[tuple[SoilFigure, ...]](
     file="cases/*/soil",
     rows="soil_mesh",
     asked=True,
-    part="soil",
+    part="soil meshes",
     unverified="course",
 )
 

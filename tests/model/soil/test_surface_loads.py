@@ -9,10 +9,9 @@ import pytest
 
 from mbla.arrays import FloatArray
 from mbla.model.model import Model
-from tests.model.soil.decks import ARCH, BACKFILL, GROUND, WALL, fill, model, moved_to
+from tests.model.soil.decks import BACKFILL, GROUND, WALL, model, moved_to
 
 STRIP = "pressure: {value: 1000, normal: [0, 0, 1], box: [[0.33, -1, 0.9], [0.81, 2, 1.1]]}, on: backfill"
-LINE = "line: {from: [0.5, 0, 1], to: [0.5, 1, 1], force_per_length: [0, 0, -7]}, on: backfill"
 
 
 def live(found: Model) -> FloatArray:
@@ -37,7 +36,6 @@ def both(folder: Path, loads: str) -> tuple[Model, Model]:
     [
         ("pressure: {value: 100, normal: [0, 0, 1]}, on: backfill", 160.0, 0.8),
         (STRIP, 480.0, 0.57),
-        (LINE, 7.0, 0.5),
     ],
 )
 def test_the_same_on_points_that_are_moved(tmp_path: Path, load: str, force: float, at: float) -> None:
@@ -63,22 +61,7 @@ def test_faces_of_blocks_are_whole(tmp_path: Path) -> None:
     assert live(found)[2] == pytest.approx(-500.0 - 810.0)
 
 
-def test_words_count_cells_as_soil(tmp_path: Path) -> None:
-    loads = f"live: [{{{LINE}}}]"
-    (words,) = model(tmp_path, WALL, BACKFILL, supports=GROUND, loads=loads).load_cases[0].live_words
-    assert words.endswith("to (0.5, 1, 1) m on 1 cell of soil backfill")
+def test_words_tell_of_soil(tmp_path: Path) -> None:
     across = "live: [{line: {from: [-0.4, 0.5, 1], to: [0.1, 0.5, 1], force_per_length: [0, 0, -7]}}]"
     (words,) = model(tmp_path, WALL, BACKFILL, supports=GROUND, loads=across).load_cases[0].live_words
-    assert words.endswith("on 1 block and 1 cell of soil backfill")
-
-
-def test_what_travels_stands_on_cells(tmp_path: Path) -> None:
-    travel = "live: [{travel: {force: [0, 0, -1], path: [[0.5, 1, 1.5], [3.5, 1, 1.5]], positions: 7}, on: soil}]"
-    found = model(tmp_path, ARCH, fill=fill(), loads=travel)
-    assert len(found.load_cases) == 7
-    for number, case in enumerate(found.load_cases):
-        (block,) = np.flatnonzero(case.live_load.any(axis=1))
-        assert found.soil_of_block[block] == 0
-        about_y = case.live_load[block, 4] + found.blocks.centroids[block, 0]
-        assert about_y == pytest.approx(0.5 + 0.5 * number)
-        assert "on 1 cell of soil" in case.live_words[0]
+    assert words.endswith("on 1 block and soil backfill")
