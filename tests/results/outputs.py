@@ -23,5 +23,5 @@ def write_outputs(results: Results, folder: Path, stem: str, force: bool, output
 
 def soil_file(folder: Path) -> Path:
     """Result file of a run with soil of cells, in that folder."""
-    run(EARTH_PRESSURE, RunOptions(folder, force=True))
+    run(EARTH_PRESSURE, RunOptions(folder, overrides=("units.force=N",), force=True))
     return folder / "active_earth_pressure.h5"
