@@ -2,6 +2,7 @@
 
 They consist of joints of cells, with each other, with blocks and with ground. Which of them hinge and which slide says
 how the soil is divided, not how it fails: what moves there is a line from cell to cell, as far as these are connected.
+Along walls beside it, such as spandrels, soil slips on a surface, which is told from its lowest corner to the farthest.
 """
 
 from __future__ import annotations
@@ -20,6 +21,8 @@ from mbla.results.collapse.mechanics import Work
 
 DECIMALS = 6
 """of m, to which ends of cells that meet are the same place"""
+BESIDE = 0.5
+"""cosine between the normal of an interface and the direction across the soil, above which it is beside it"""
 
 
 @dataclass(frozen=True)
@@ -28,7 +31,8 @@ class SlipLine:
 
     clusters    : that which moves, and that against which it does; 0 is at rest and comes second
     interfaces  : (n,) from start to end
-    start, end  : (3,) m, of it in the middle of the width; the start is the lower one in z, x, then y
+    start, end  : (3,) m, of it in the middle of the width; the start is the lower one in z, x, then y; of a surface
+                  beside the soil two corners
     length      : m along it
     area        : m2
     share       : the largest contact speed of its interfaces over the largest of all
@@ -66,7 +70,11 @@ def slip_lines(
 def _slip_line(
     model: Model, contacts: Contacts, joints: ClusterJoints, interfaces: IntArray, work: Work, soil: int
 ) -> SlipLine:
-    pieces = [_ends_of(contacts, interface, model.soils[soil].axes[2]) for interface in interfaces.tolist()]
+    across = model.soils[soil].axes[2]
+    beside = is_beside(contacts, interfaces, across)
+    pieces = [_ends_of(contacts, interface, across) for interface in interfaces[~beside].tolist()]
+    if beside.all():
+        pieces = [_farthest(np.concatenate([_corners_of(contacts, each) for each in interfaces.tolist()]))]
     first, last = _ends_of_line(np.concatenate(pieces))
     order = np.argsort((contacts.centroids[interfaces] - first) @ (last - first), kind="stable")
     areas = contacts.areas[interfaces]
@@ -82,9 +90,19 @@ def _slip_line(
     )
 
 
+def is_beside(contacts: Contacts, interfaces: IntArray, across: FloatArray) -> BoolArray:
+    """Which interfaces (n,) lie beside soil that has a plane across a direction, (3,), and not in its section, (n,)."""
+    return np.asarray(np.abs(contacts.normals[interfaces] @ across) > BESIDE)
+
+
+def _corners_of(contacts: Contacts, interface: int) -> FloatArray:
+    """Contact points of an interface, (n, 3) m."""
+    return contacts.points[contacts.point_start[interface] : contacts.point_start[interface + 1]]
+
+
 def _ends_of(contacts: Contacts, interface: int, across: FloatArray) -> FloatArray:
     """Both ends of an interface in the plane of the soil, in the middle of the width, (2, 3) m."""
-    points = contacts.points[contacts.point_start[interface] : contacts.point_start[interface + 1]]
+    points = _corners_of(contacts, interface)
     way = np.cross(across, contacts.normals[interface])
     centre = contacts.centroids[interface]
     along = (points - centre) @ way
@@ -94,8 +112,12 @@ def _ends_of(contacts: Contacts, interface: int, across: FloatArray) -> FloatArr
 def _ends_of_line(ends: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Of the ends of its pieces, (2 n, 3) m, the two farthest apart of those that no other piece has, if any."""
     places, times = np.unique(np.round(ends, DECIMALS), axis=0, return_counts=True)
-    outer = places[times == 1] if (times == 1).sum() > 1 else places
-    apart = np.linalg.norm(outer[:, None] - outer[None], axis=2)
-    pair = outer[list(np.unravel_index(int(apart.argmax()), apart.shape))]
+    pair = _farthest(places[times == 1] if (times == 1).sum() > 1 else places)
     first, last = sorted((pair + 0.0).tolist(), key=lambda place: (place[2], place[0], place[1]))
     return np.array(first), np.array(last)
+
+
+def _farthest(places: FloatArray) -> FloatArray:
+    """The two of places (n, 3) that are farthest apart, (2, 3)."""
+    apart = np.linalg.norm(places[:, None] - places[None], axis=2)
+    return np.asarray(places[list(np.unravel_index(int(apart.argmax()), apart.shape))])

@@ -13,6 +13,9 @@ from mbla.results.collapse.interface_modes import InterfaceMode
 from mbla.results.collapse.soil_pressure import soil_pressures
 from mbla.results.demand.demand import demand_of
 from mbla.results.listing.listing import listing
+from mbla.results.pictures.marks.joints import slip_lines as slip_marks
+from mbla.results.pictures.options import PictureOptions
+from mbla.results.pictures.scene import scene_of as picture_scene
 from mbla.results.record.scene import Scene, scene_of
 from mbla.results.results import Results
 
@@ -75,3 +78,36 @@ def test_the_listing_tells_what_soil_presses_with(results: Results) -> None:
     assert pressure.force[0] == pytest.approx(-2.1786328, rel=1e-6)  # of Rankine, on a wall that gives way to the left
     assert pressure.point[0] == pytest.approx(0, abs=1e-9)
     assert "backfill on wall -2.1786 0 0 (0, 0.5, " in " ".join(listing(results).split())
+
+
+BETWEEN_WALLS = """mbla: 1
+materials: {stone: {density: 2000}, earth: {density: 1800}}
+joints: {dry: {friction: 0.6}}
+blocks:
+  - box: {group: base, material: stone, min: [0, 0, 0], max: [3, 2, 1]}
+  - box: {group: walls, material: stone, min: [0, 0, 1], max: [3, 0.4, 2.2]}
+  - box: {group: walls, material: stone, min: [0, 1.6, 1], max: [3, 2, 2.2]}
+contacts: {joint: dry}
+supports: [{blocks: base}]
+fill: {soil: {on: [base, walls], material: earth, level: 2, cells: {size: 0.4}, friction_angle: 20}}
+load_cases:
+  lorry: {live: [{travel: {force: [0, 0, -1], contact: 0.3, width: 0.8, path: [[1, 1, 2], [2, 1, 2]], positions: 2}}]}
+analysis: {flow_rule: associative}
+"""
+
+
+def test_along_walls_beside_it_soil_slips_on_a_surface() -> None:
+    """It is no line of its section, where such a surface has no length."""
+    results = mbla.run(BETWEEN_WALLS).records
+    scene = picture_scene(results, results.cases[0], PictureOptions(), "history")
+    assert scene.failure is not None
+    assert scene.joint_motion is not None
+    of_walls = np.abs(scene.contacts.normals[:, 1]) > 0.9
+    beside = [line for line in scene.failure.slip_lines if of_walls[line.interfaces].all()]
+    assert beside
+    assert all(line.length > 0.1 for line in beside)
+    assert all(line.start[1] in (0.4, 1.6) for line in beside)
+    assert "soil along walls" in listing(results)
+    lines = slip_marks(scene, scene.joint_motion)
+    assert len(lines.pairs)
+    assert not {1, 2} & set(lines.bodies.ravel().tolist()), "none of the walls"

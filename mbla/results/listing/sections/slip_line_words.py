@@ -8,7 +8,7 @@ import numpy as np
 
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import Model
-from mbla.results.collapse.slip_lines import SlipLine
+from mbla.results.collapse.slip_lines import SlipLine, is_beside
 from mbla.results.listing.blocks import MOST_ROWS, Block, table_of
 from mbla.results.listing.places import point_words, soil_words
 from mbla.results.listing.text import percent
@@ -33,7 +33,7 @@ def slip_table(model: Model, contacts: Contacts, lines: Sequence[SlipLine]) -> l
 
 
 def slip_words(model: Model, contacts: Contacts, line: SlipLine) -> str:
-    """``in soil road``, ``soil road on arch``, ``in soil road and on ground``: groups of blocks, and ground."""
+    """``in soil road``, ``soil road on arch``, ``soil road along walls``, ``in soil road and on ground``: by groups."""
     bodies = np.unique(contacts.bodies[line.interfaces])
     blocks = bodies[bodies < len(model.blocks)]
     soil = model.soil_of_block[blocks]
@@ -43,4 +43,6 @@ def slip_words(model: Model, contacts: Contacts, line: SlipLine) -> str:
     if not others:
         return f"in {name}"
     inside = cells[contacts.bodies[line.interfaces]].all(axis=1).any()
-    return f"in {name} and on {', '.join(others)}" if inside else f"{name} on {', '.join(others)}"
+    across = model.soils[int(soil.max())].axes[2]
+    way = "along" if is_beside(contacts, line.interfaces, across).all() else "on"
+    return f"in {name} and on {', '.join(others)}" if inside else f"{name} {way} {', '.join(others)}"

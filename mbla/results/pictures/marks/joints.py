@@ -10,6 +10,7 @@ import numpy as np
 from mbla.arrays import BoolArray, IntArray
 from mbla.contacts.contacts import Contacts
 from mbla.results.collapse.interface_modes import InterfaceMode, InterfaceMotion
+from mbla.results.collapse.slip_lines import is_beside
 from mbla.results.listing.text import number
 from mbla.results.pictures.marks.marks import Mark, arrows, interface_names, outer_rows, rings, segments
 from mbla.results.pictures.page import CRUSH, HINGE, INK, OPEN, SLIDE
@@ -83,15 +84,19 @@ def cracks(scene: PictureScene, names: Sequence[str]) -> Mark:
 
 
 def slip_lines(scene: PictureScene, joints: InterfaceMotion) -> Mark:
-    """Joints of cells of soil that move notably, as part of both sides, the thicker the faster."""
+    """Joints of cells of soil in its section that move notably, as part of both sides, the thicker the faster."""
     contacts, model = scene.contacts, scene.model
     speeds = np.where(joints.in_soil, np.linalg.norm(joints.translation, axis=1), 0.0)
     most = float(speeds.max(initial=0.0))
     moves = joints.in_soil & (joints.modes != InterfaceMode.STICK) & (speeds >= LEAST_SHARE * most)
+    across = np.array([soil.axes[2] for soil in model.soils]).reshape(-1, 3)
+    of_body = np.append(model.soil_of_block, np.full(len(model.grounds), -1))
+    for row, direction in enumerate(across):
+        own = (of_body[contacts.bodies] == row).any(axis=1)
+        moves &= ~(own & is_beside(contacts, np.arange(len(contacts)), direction))
     sides = interface_sides(contacts, moves)
     owners = contacts.interface_of_point[sides[:, 0]]
-    across = np.array([soil.axes[2] for soil in model.soils]).reshape(-1, 3)
-    soil = np.append(model.soil_of_block, np.full(len(model.grounds), -1))[contacts.bodies[owners]].max(axis=1)
+    soil = of_body[contacts.bodies[owners]].max(axis=1)
     steps = np.diff(contacts.points[sides], axis=1)[:, 0]
     level = np.abs(np.einsum("ij,ij->i", steps, across[soil])) < ACROSS * np.linalg.norm(steps, axis=1)
     sides, owners = np.tile(sides[level], (2, 1)), owners[level]
