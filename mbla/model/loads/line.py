@@ -22,7 +22,7 @@ from mbla.model.fill.dispersal import Spread
 from mbla.model.loads.blocks_under import Below
 from mbla.model.loads.load_footprint import PARALLEL, LoadFootprint
 from mbla.model.loads.load_kind import Entry, LoadKind, LoadSite
-from mbla.model.loads.on_soil import LAY, refuse_without_length
+from mbla.model.loads.on_soil import LAY, refuse_within_soil, refuse_without_length
 from mbla.model.loads.tread import Tread, level
 from mbla.model.soil.names import carriers_in_words
 from mbla.model.wording import vector
@@ -92,6 +92,8 @@ def _landed(footprint: LoadFootprint, line: LineLoad, begin: FloatArray, end: Fl
             _refuse_bare(line, ends, bare, footprint.path, site)
         found = None if bare.any() else footprint.of_line(begin, end)
         if found is None or refuse_without_length(found.blocks, (end - begin)[None], LAY, footprint.path, site):
+            return None
+        if refuse_within_soil(footprint.below, found.blocks, found.points, footprint.path, site):
             return None
         return found
     across = end - begin

@@ -17,7 +17,7 @@ from mbla.model.fill.dispersal import Spread, beside, emerging, spread
 from mbla.model.fill.fill import FillBody
 from mbla.model.loads.blocks_under import Below
 from mbla.model.loads.load_kind import LoadSite
-from mbla.model.loads.on_soil import refuse_without_length
+from mbla.model.loads.on_soil import refuse_within_soil, refuse_without_length
 from mbla.model.loads.spreads import most_laden, share_of, together
 from mbla.model.loads.tread import Tread, across, level
 from mbla.model.wording import named, vector
@@ -82,12 +82,12 @@ class LoadFootprint:
             wheels = tread.places(place, along)
             found = [on.of(wheel + corner, along, line) for wheel in wheels for corner in corners]
         landed = [each for each in found if each is not None]
-        if len(landed) < len(found) or self._without_length(landed, along, tread):
+        if len(landed) < len(found) or self._unfit_for_soil(landed, along, tread):
             return None
         return landed[0] if len(landed) == 1 else together(landed)
 
-    def _without_length(self, landed: Sequence[Spread], along: FloatArray, tread: Tread) -> bool:
-        """Whether an axle stands on soil of cells without a length; leaves a fault."""
+    def _unfit_for_soil(self, landed: Sequence[Spread], along: FloatArray, tread: Tread) -> bool:
+        """Whether an axle stands on soil of cells without a length, or within it; leaves a fault."""
         if self.through is not None:
             return False
         of = f"vehicles.{self.vehicle}" if self.vehicle else "it"
@@ -95,7 +95,10 @@ class LoadFootprint:
         if tread.gauge > 0.0:
             remedy = f"give the wheels of {of} a contact, as [0.4, 0.4] m of EN 1991-2"
         under = np.concatenate([each.blocks for each in landed])
-        return refuse_without_length(under, tread.sides(along), remedy, self.path, self.site)
+        if refuse_without_length(under, tread.sides(along), remedy, self.path, self.site):
+            return True
+        points = np.concatenate([each.points for each in landed])
+        return refuse_within_soil(self.below, under, points, self.path, self.site)
 
     def _of_rectangle(self, middle: FloatArray, sides: FloatArray) -> Spread | None:
         """Of a force that presses evenly on a rectangle, sides (2, 3), about its middle; None where part of it lies

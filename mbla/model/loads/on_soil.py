@@ -9,6 +9,7 @@ import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.errors import Finding, KeyPath
+from mbla.model.loads.blocks_under import Below
 from mbla.model.loads.load_kind import LoadSite
 from mbla.model.soil.names import soil_name
 from mbla.model.soil.soil_mesh import SoilMesh
@@ -35,6 +36,21 @@ def refuse_without_length(blocks: IntArray, sides: FloatArray, remedy: str, path
         words = f"stands on {soil_name(soil.name)} with no length along it, and a single cell would carry it: {remedy}"
         site.refuse(Finding("load-on-cell", words, *path))
         return True
+    return False
+
+
+def refuse_within_soil(below: Below, blocks: IntArray, points: FloatArray, path: KeyPath, site: LoadSite) -> bool:
+    """Whether a load that lands at points (n, 3) on blocks (n,) has cells of the same soil above it; leaves a fault."""
+    soils = soils_under(blocks, site)
+    if not soils:
+        return False
+    extent = float(np.linalg.norm(np.ptp(site.blocks.vertices, axis=0)))
+    here, above = below.at(points), below.at(points - extent * below.down)
+    for soil in soils:
+        if (_cells_of(soil, here) & _cells_of(soil, above) & (above != here)).any():
+            words = f"lies within {_name(soil)} and would act on cells that others cover: draw it on the top"
+            site.refuse(Finding("load-on-cell", words, *path))
+            return True
     return False
 
 

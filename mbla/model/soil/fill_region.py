@@ -200,7 +200,10 @@ def _inner_face(walls: Sections, at: BoolArray, side: int, reach: FloatArray, bl
     thinner = np.abs(faces - inner) > reach[at]
     if thinner.any():
         which = named(np.unique(walls.blocks[at][thinner]), blocks.name)
-        words = f"the walls along a face of the soil must be as thick as each other where it lies: {which} thinner"
+        words = (
+            f"walls along a face of the soil must be as thick as each other up to its top: {which} thinner; lower its "
+            "top, or make them alike"
+        )
         raise ItemRefused(Finding("soil-not-prismatic", words, "on"))
     return inner
 
