@@ -21,6 +21,12 @@ def soil_name(name: str) -> str:
     return name if name == SOIL else f"soil {name}"
 
 
+def body_in_words(block: int, blocks: Blocks) -> str:
+    """``wall[3]``, ``a cell of soil road``."""
+    cell = bool(is_cell(blocks)[block])
+    return f"a cell of {soil_name(blocks.groups[block])}" if cell else blocks.name(block)
+
+
 def counted_with_soil(which: IntArray, blocks: Blocks) -> str:
     """``3 blocks and 40 cells of soil``: blocks (n,)."""
     cells = int(is_cell(blocks)[which].sum())

@@ -15,6 +15,7 @@ from mbla.arrays import FloatArray
 from mbla.contacts.contacts import Contacts
 from mbla.errors import Message
 from mbla.model.model import LoadCase, Model
+from mbla.model.soil.names import body_in_words
 from mbla.program.yield_conditions.limits import YieldLimits
 from mbla.solution.verification.standing import FORCE_ROUNDING
 from mbla.solution.verification.statics import (
@@ -53,9 +54,10 @@ def lock_failures(model: Model, contacts: Contacts, load_case: LoadCase, lock: F
     failures = []
     worst = int((unbalanced / allowed).argmax())
     if unbalanced[worst] > allowed[worst]:
+        which = body_in_words(worst, model.blocks)
         failures.append(
             f"the forces that should show that the structure locks leave {unbalanced[worst] / scale.own[worst]:.2g} of "
-            f"the live load of block {worst} unbalanced"
+            f"the live load of {which} unbalanced"
         )
     if np.any(_lasting_excess(lock, limits) > scale.of_lighter(contacts, allowed)):
         failures.append("the forces that should show that the structure locks do not stay within the yield conditions")

@@ -18,6 +18,7 @@ from mbla.arrays import FloatArray
 from mbla.contacts.contacts import Contacts
 from mbla.errors import Message
 from mbla.model.model import LoadCase, Model
+from mbla.model.soil.names import body_in_words
 from mbla.program.yield_conditions.limits import YieldLimits
 from mbla.solution.verification.statics import (
     contact_resultants,
@@ -83,8 +84,9 @@ def standing_failures(
     unbalanced = load_sizes(left_to_balance(model, acting, scale.arms), scale.arms)
     worst = int((unbalanced / allowed).argmax())
     if unbalanced[worst] > allowed[worst]:
+        which = body_in_words(worst, model.blocks)
         share = unbalanced[worst] / scale.own[worst]
-        failures.append(f"under the dead load alone {share:.2g} of the load of block {worst} is not balanced")
+        failures.append(f"under the dead load alone {share:.2g} of the load of {which} is not balanced")
     if np.any(excess(forces, limits) > scale.of_lighter(contacts, allowed)):
         failures.append("forces under the dead load alone exceed the yield conditions")
     if np.any(model.fixed[:, None] & (settlement != 0)):

@@ -45,7 +45,7 @@ def test_a_millionth_of_the_live_load_may_be_left(side: float, dry: Line) -> Non
     for share in (1.01e-6, 0.25):
         (failure,) = failures(dry, 8.0 + share * side * size / 4)
         assert failure == (
-            f"the forces that should show that the structure locks leave {share:.2g} of the live load of block 0 "
+            f"the forces that should show that the structure locks leave {share:.2g} of the live load of block[0] "
             "unbalanced"
         )
 
@@ -138,7 +138,7 @@ def test_the_block_that_is_off_by_most_of_its_own_load_is_named(block: int, load
     lock[here, 0] *= 1.25
     lock[~here, 0] *= 1.125
     (failure,) = lock_failures(pair.model, contacts, pair.load_case, lock)
-    assert f"leave 0.25 of the live load of block {block} " in failure
+    assert f"leave 0.25 of the live load of {pair.model.blocks.name(block)} " in failure
 
 
 def test_one_point_beyond_its_friction_is_enough(pair: Line) -> None:

@@ -63,7 +63,9 @@ SIZE = float(np.sqrt(8.0**2 + 32.0**2 + (2.0 / 0.75) ** 2))
 def test_three_millionths_of_the_load_may_be_left(side: float, dry: Line) -> None:
     settled = (4.0, 0.0, -9.0, 0.0, 0.0, 0.0)
     for share, told in ((2.99e-6, None), (3.01e-6, "3e-06"), (0.02, "0.02")):
-        expected = () if told is None else (f"under the dead load alone {told} of the load of block 0 is not balanced",)
+        expected = (
+            () if told is None else (f"under the dead load alone {told} of the load of block[0] is not balanced",)
+        )
         assert failures(dry, (8 + side * share * SIZE / 4, -2, 0), settled) == expected
 
 
@@ -227,7 +229,7 @@ def test_the_block_that_is_off_by_most_of_its_own_load_is_named(
 ) -> None:
     assert of_standing(row, *of_row(row)) == ()
     (failure,) = of_standing(row, *of_row(row, share))
-    assert failure == f"under the dead load alone 0.25 of the load of block {block} is not balanced"
+    assert failure == f"under the dead load alone 0.25 of the load of {row.model.blocks.name(block)} is not balanced"
 
 
 def test_one_point_beyond_its_friction_is_enough(row: Line) -> None:
