@@ -15,6 +15,8 @@ from mbla.model.solids.blocks import Blocks
 from mbla.model.solids.polyhedra import in_space
 from mbla.model.transform import IDENTITY, build_transform
 
+REPEATED = 1e-9
+"""distance over the extent of an outline up to which two corners in a row are one"""
 NO_BLOCKS: IntArray = np.empty(0, dtype=np.int64)
 
 
@@ -36,7 +38,8 @@ def item_region(item: SoilItem, blocks: Blocks, tolerance: float) -> Region:
     axes = np.stack([level, up, np.cross(up, level)])
     near, far = (transform.points(in_space(outline, y)) @ axes.T for y in (0.0, item.width))
     extent = np.sort([near[0, 2], far[0, 2]])
-    polygon = shapely.orient_polygons(shapely.Polygon(near[:, :2]))
+    drawn = shapely.remove_repeated_points(shapely.Polygon(near[:, :2]), REPEATED * np.ptp(near[:, :2], axis=0).max())
+    polygon = shapely.orient_polygons(drawn)
     region = Region(axes, extent, (polygon,))
     others = beside(region, blocks, NO_BLOCKS, tolerance)
     rows = overlapping(region, others, tolerance)

@@ -92,6 +92,14 @@ def test_outlines_that_cross_are_refused(tmp_path: Path) -> None:
     assert refused(tmp_path, crossed, supports=GROUND)[0][0] == "blocks[0].soil.outline"
 
 
+@pytest.mark.parametrize("twice", ["[1.6, 0], [1.6, 0]", "[1.6, 0], [1.600000000001, 0]"])
+def test_a_corner_that_is_given_twice(twice: str, tmp_path: Path) -> None:
+    (once,) = model(tmp_path, BACKFILL, supports=GROUND).soils
+    (soil,) = model(tmp_path, BACKFILL.replace("[1.6, 0]", twice), supports=GROUND).soils
+    assert soil.points == pytest.approx(once.points, abs=1e-9)
+    assert (soil.triangles == once.triangles).all()
+
+
 def test_more_cells_than_can_be_handled_are_refused(tmp_path: Path) -> None:
     ((key, words),) = refused(tmp_path, ARCH, fill=fill(cells="size: 0.002"))
     assert key == "fill.soil.cells.size"
