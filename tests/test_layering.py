@@ -108,6 +108,7 @@ GIVEN_TO_IT = {
     "solution/further/geometric_safety/geometric_safety.py": "the claim of a factor of safety",
     "solution/further/geometric_safety/reference_pressure.py": "loads under a pressure in all joints",
     "solution/further/sensitivity/slopes.py": "the claim of slopes",
+    "solution/further/soil_range/soil_path.py": "the claim of paths in soil",
     "solution/further/strengthening/strengthening.py": "what may be added to a structure",
     "solution/further/sensitivity/structures.py": "a structure with another parameter",
     "solution/pushover/pushover.py": "the claim of a pushover",

@@ -40,6 +40,8 @@ def unused_keys(tree: Tree, content: DeckContent) -> Iterator[Notice]:
     for key, (applies, where) in APPLIES.items():
         if key in given and not applies(analysis):
             yield _notice(tree, ("analysis", key), where)
+    if analysis.soil_range and not any(soils_of(content)):
+        yield _notice(tree, ("analysis", "soil_range"), "soil of cells")
     for name, joint in content.joints.items():
         if joint.dilatancy > 0.0 and analysis.flow_rule != "dilatancy":
             yield _notice(tree, ("joints", name, "dilatancy"), "flow_rule: dilatancy")

@@ -86,6 +86,8 @@ def settings_in_words(deck: Deck, settings: SolverSettings) -> dict[str, str]:
         words["sensitivity"] = "true" if analysis.sensitivity is True else ", ".join(analysis.sensitivity)
     if analysis.geometric_safety:
         words["geometric_safety"] = "true"
+    if analysis.soil_range:
+        words["soil_range"] = "true"
     if analysis.time_limit is not None:
         words["time_limit"] = f"{analysis.time_limit:g} s"
     return words

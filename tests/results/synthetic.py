@@ -34,6 +34,7 @@ from mbla.results.results import CaseResult, DeckRecord, Results
 from mbla.solution.further.further import Further
 from mbla.solution.further.geometric_safety.geometric_safety import GeometricSafety
 from mbla.solution.further.sensitivity.slopes import Side, Slope
+from mbla.solution.further.soil_range.soil_path import SoilPath
 from mbla.solution.pushover.curve_rows import CurveEnd, CurveRow
 from mbla.solution.pushover.pushover import Pushover
 from mbla.solution.pushover.record import PushedRows, RowPoints
@@ -438,6 +439,7 @@ def full_solution(solution: Solution) -> Solution:
                     "blocks.0.box.max.0", 4.0, "m", np.nan, np.nan, Side.NONE, "a small change is one of the contacts"
                 ),
             ),
+            soil_range=(SoilPath(0.0, np.nan, "not_verified", "it was not seen"), SoilPath(1.0, 0.5, "solved", "")),
         ),
         size=ModelSize(2, 1, 3, 2, 4, 4),
         reductions=(STEP,),

@@ -49,6 +49,7 @@ OTHERS: dict[str, list[Any]] = {
     "analysis.sensitivity": [True, ["joints.dry.friction"]],
     "analysis.torsion": [False],
     "analysis.geometric_safety": [True],
+    "analysis.soil_range": [True],
     "analysis.reductions": [False],
     "analysis.accuracy": ["draft"],
     "analysis.tolerance": [1e-8],

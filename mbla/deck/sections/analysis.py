@@ -109,6 +109,12 @@ class AnalysisSection(Section):
         description="factor by which all joints may shrink about their centroids before the dead load falls: of an "
         "arch the thickness over the least one",
     )
+    soil_range: Switch = Field(
+        False,
+        description="with soil of cells: the load factors on two paths of elastic joints beside the answer, on which "
+        "soil slides without dilatancy and with that of its friction angle, joints of masonry without; each takes "
+        "longer than the associative load factor",
+    )
     reductions: Switch = Field(
         True,
         description="leave out what need not be solved: planar structures have three unknowns a block, parts that "
@@ -147,6 +153,8 @@ def convex_contact_model(analysis: AnalysisSection) -> Iterator[Finding]:
     """Interface resultants are solved in one way."""
     if analysis.contact_model != "convex":
         return
+    if analysis.soil_range:
+        yield Finding("key-of-another-choice", "applies to contact_model: concave only: use false", "soil_range")
     if analysis.flow_rule not in CONVEX_FLOW_RULES:
         allowed = listed(CONVEX_FLOW_RULES)
         words = f"contact_model: convex allows {allowed} only ({analysis.flow_rule} here)"

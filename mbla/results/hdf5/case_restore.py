@@ -19,6 +19,7 @@ from mbla.results.results import CaseResult
 from mbla.solution.further.further import Further
 from mbla.solution.further.geometric_safety.geometric_safety import GeometricSafety
 from mbla.solution.further.sensitivity.slopes import Side, Slope
+from mbla.solution.further.soil_range.soil_path import SoilPath
 from mbla.solution.pushover.curve_rows import CurveEnd, CurveRow
 from mbla.solution.pushover.pushover import NOT_PUSHED, Pushover
 from mbla.solution.pushover.record import PushedRows, RowPoints
@@ -71,6 +72,7 @@ def case_from(load_case: LoadCase, get: dict[str, Any]) -> CaseResult:
             pushover=_pushover(get),
             sensitivity=records(Slope, get, "sensitivity") if "sensitivity/parameter" in get else (),
             geometric_safety=_geometric_safety(get),
+            soil_range=_records(SoilPath, get, "soil_range") if "soil_range/share" in get else (),
         ),
     }
     checks = held(Checks, "", get) | {"failures": _messages(get, "failures")}

@@ -21,6 +21,7 @@ from mbla.results.listing.verdict_words import (
     least_words,
     reasons,
     soil_flow_words,
+    soil_range_words,
     torsion_words,
     verdict,
 )
@@ -114,6 +115,7 @@ def _in_words(results: Results, case: CaseResult) -> list[Block]:
     said = (least_words(model, case), torsion_words(model, case), *details, *reasons(case), bound_words(model, case))
     further = (
         soil_flow_words(model, case),
+        soil_range_words(model, case),
         *said,
         curve_words(model, case) or no_curve_words(case),
         assessment_words(case),

@@ -23,6 +23,7 @@ from mbla.results.outcome import (
 )
 from mbla.results.results import CaseResult
 from mbla.solution.flow.path_record import Stop
+from mbla.solution.further.soil_range.soil_path import SoilPath
 from mbla.solution.solution import Status
 from mbla.solution.thresholds import GAP_TOLERANCE, SOLVED_RESIDUAL
 
@@ -207,15 +208,32 @@ def uniqueness_words(model: Model, case: CaseResult) -> str:
 
 
 OF_SOIL = (
-    "by associative flow in soil and joints, between two proved bounds; with less dilatancy it is less, or the same "
-    "(flow_rule: dilatancy)"
+    "by associative flow in soil and joints, between two proved bounds; with less dilatancy it is less, or the same"
 )
+NO_RANGE = " (soil_range tells how much)"
 
 
 def soil_flow_words(model: Model, case: CaseResult) -> str:
     """What the figure of a structure with soil of cells is, where bounds prove it; nothing for others."""
     flows = case.solution.flow_rule == "associative" and case.load_case.question.collapses
-    return OF_SOIL if model.soils and flows and case.status is Status.SOLVED else ""
+    if not (model.soils and flows and case.status is Status.SOLVED):
+        return ""
+    return OF_SOIL if case.solution.further.soil_range else OF_SOIL + NO_RANGE
+
+
+def soil_range_words(model: Model, case: CaseResult) -> str:
+    """The load factors of soil that slides without dilatancy and with that of its friction angle; nothing without."""
+    paths = case.solution.further.soil_range if model.soils else ()
+    found = [_soil_path_words(model, case.load_case, path) for path in paths]
+    return f"on paths of elastic joints, those of masonry without dilatancy: {', '.join(found)}" if found else ""
+
+
+def _soil_path_words(model: Model, load_case: LoadCase, path: SoilPath) -> str:
+    dilates = "where soil dilates by its friction angle" if path.share else "where soil does not dilate"
+    if np.isnan(path.load_factor):
+        return f"not found {dilates} ({path.reason or path.status.replace('_', ' ')})"
+    known = load_factor_words(model, load_case, path.load_factor)
+    return f"{known if path.status == Status.SOLVED else f'about {known}, approximate,'} {dilates}"
 
 
 PUBLISHED = (
@@ -229,6 +247,7 @@ def known_words(model: Model, case: CaseResult) -> list[str]:
     published = PUBLISHED if case.solution.scheme == "published" and case.solution.mechanics is not None else ""
     texts = (
         soil_flow_words(model, case),
+        soil_range_words(model, case),
         uniqueness_words(model, case),
         stiffness_words(model, case),
         least_words(model, case),

@@ -7,6 +7,7 @@ from mbla.results.quantities.group import Field, Group
 from mbla.results.record.scene import Scene
 from mbla.solution.further.geometric_safety.geometric_safety import GeometricSafety
 from mbla.solution.further.sensitivity.slopes import Slope
+from mbla.solution.further.soil_range.soil_path import SoilPath
 from mbla.solution.solution import PROVED_STANDING, StandingResult
 
 STANDING = Group[StandingResult](lambda scene: scene.solved.solution.standing, file="cases/*/standing", part="standing")
@@ -22,6 +23,13 @@ GEOMETRIC_SAFETY = Group[GeometricSafety](
     lambda scene: scene.solved.solution.further.geometric_safety,
     file="cases/*/geometric_safety",
     part="geometric_safety",
+)
+SOIL_RANGE = Group[tuple[SoilPath, ...]](
+    lambda scene: scene.solved.solution.further.soil_range or None,
+    file="cases/*/soil_range",
+    rows="soil_path",
+    part="soil_range",
+    unverified="soil",
 )
 
 STANDING.fields(
@@ -84,6 +92,14 @@ GEOMETRIC_SAFETY.fields(
     mechanisms=Field("mechanisms of that problem", "safety_end block component", unit="velocities"),
     solves=Field("programs that were solved for it", unverified="course"),
     verified=Field("1 where forces and mechanisms show that it stands at the first size and falls at the second"),
+)
+
+SOIL_RANGE.fields(
+    SoilPath,
+    share=Field("tan ψ of the soil over tan φ on a path of elastic joints; those of masonry slide without dilatancy"),
+    load_factor=Field("the greatest load factor on it; nan: none was found", rule="open"),
+    status=Field("of that load factor, as verified by the run"),
+    reason=Field("why it is not solved; empty where it is"),
 )
 
 

@@ -64,6 +64,7 @@ UNVERIFIED = {
     "standing": "that it stands only by self-stress, or that it is doubtful whether it stands",
     "falls": "which block falls first",
     "history": "of elastic joints: the forces that they remember, and how stiff they are",
+    "soil": "load factors of soil that slides with a dilatancy, beside the answer",
     "curve": "of a pushover: energies, errors of its load factors, where it jumps, which blocks fall without the rest, "
     "its end; areas, stiffness and history of contact points, and which body's face carries their frame",
 }

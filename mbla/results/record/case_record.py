@@ -119,6 +119,12 @@ CASE.holds(
     "by how much the joints may shrink about their middles before the dead load falls; null where the deck does not "
     "ask",
 )
+CASE.holds(
+    "soil_range",
+    further.SOIL_RANGE,
+    "load factors of soil that slides without dilatancy and with that of its friction angle; empty where not asked",
+    "a path",
+)
 CASE.holds("assessment", ASSESSMENT, "what a code says")
 
 

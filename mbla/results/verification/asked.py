@@ -22,10 +22,12 @@ from mbla.results.verification.pushover import pushover_claims, pushover_differe
 from mbla.solution.flow.path_record import Stop
 from mbla.solution.flow.settings import RATIOS, ratios_beside, second_ratio
 from mbla.solution.further.geometric_safety.find import why_no_geometric_safety
+from mbla.solution.further.soil_range.soil_path import SHARES
 from mbla.solution.nonassociative.by_stiffness import same
 from mbla.solution.pushover.curve_rows import CurveEnd
 from mbla.solution.settings import settings_for, solver_settings
 from mbla.solution.solution import Mechanics, Solution, Status
+from mbla.solution.thresholds import APPROXIMATE_RESIDUAL
 from mbla.solution.verification.verify import locked_with_normality
 
 SAME = 1e-9
@@ -134,6 +136,7 @@ def _not_asked(deck: Deck, case: CaseResult) -> Iterator[str]:
         "a pushover": (solution.further.pushover.rows, load_case.pushover is not None),
         "slopes": (solution.further.sensitivity or None, deck.analysis.sensitivity is not False),
         "a geometric factor of safety": (solution.further.geometric_safety, deck.analysis.geometric_safety),
+        "a range by the dilatancy of soil": (solution.further.soil_range or None, deck.analysis.soil_range),
         "a verdict on standing": (solution.standing, settings.standing),
         "a state with torsion": (solution.torsion, settings.by_torsion),
         "a least state": (solution.least, settings.by_elastic_path and settings.search > 0.0),
@@ -153,6 +156,18 @@ def _limits(found: Found, deck: Deck, assembly: Assembly, case: CaseResult) -> N
         against = why_no_geometric_safety(assembly.model, assembly.contacts, case.load_case, deck.analysis)
         if not against:
             _missing(found, "geometric factor of safety", case, "geometric-safety-not-done")
+    _soil_range(found, deck, assembly.model, case)
+
+
+def _soil_range(found: Found, deck: Deck, model: Model, case: CaseResult) -> None:
+    """The paths that are asked for, none of them above the bound of associative flow."""
+    paths, bound = case.solution.further.soil_range, case.checks.kinematic_bound
+    asked = deck.analysis.soil_range and model.soils and case.load_case.question.collapses
+    if asked and tuple(path.share for path in paths) != SHARES:
+        found.differences.append(lacks("range by the dilatancy of soil"))
+    above = [path.load_factor for path in paths if path.load_factor > bound + APPROXIMATE_RESIDUAL * abs(bound)]
+    if above and case.load_case.question.multiplies:
+        found.differences.append(f"soil carries {above[0]:.6g}, and by associative flow no more than {bound:.6g}")
 
 
 def _associative(found: Found, assembly: Assembly, case: CaseResult) -> None:

@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 
 from mbla.solution.further.geometric_safety.geometric_safety import GeometricSafety
 from mbla.solution.further.sensitivity.slopes import Slope
+from mbla.solution.further.soil_range.soil_path import SoilPath
 from mbla.solution.pushover.pushover import NOT_PUSHED, Pushover
 
 
@@ -20,11 +21,13 @@ class Further:
     pushover         : the structure as it moves on; without rows where none was asked for, or could be done
     sensitivity      : slopes of the associative load factor, by the parameters that the deck asks for
     geometric_safety : of the dead load alone; None without
+    soil_range       : paths on which soil of cells slides with little dilatancy and with much; empty without
     """
 
     pushover: Pushover = NOT_PUSHED
     sensitivity: tuple[Slope, ...] = ()
     geometric_safety: GeometricSafety | None = field(default=None, compare=False)
+    soil_range: tuple[SoilPath, ...] = ()
 
 
 NOTHING_FURTHER = Further()

@@ -8,6 +8,7 @@ file of its own, which yields load cases and gets them back solved and verified.
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from functools import partial
 
 from mbla.assembly.assembly import Assembly
@@ -42,7 +43,14 @@ def answered(
     """
     own, sequence = settings_for(load_case, settings), sequence_of(assembly, load_case, settings)
     states = StressFreeStates() if states is None else states
-    return answer_of(sequence, lambda case: analysed(assembly, case, own, log, states))
+    answer = answer_of(sequence, lambda case: analysed(assembly, case, own, log, states))
+    if not (settings.analysis.soil_range and assembly.model.soils and load_case.question.collapses):
+        return answer
+    from mbla.solution.further.soil_range.find import soil_range_of  # late: few decks ask for it
+
+    found = soil_range_of(assembly, settings, lambda other, by: answered(other, load_case, by, log, states))
+    further = replace(answer.solution.further, soil_range=found)
+    return replace(answer, solution=replace(answer.solution, further=further))
 
 
 def analysed(

@@ -12,7 +12,7 @@ from mbla.results.listing.places import counted_blocks, counted_of, group_words
 from mbla.results.listing.sections.model_words import model_sections
 from mbla.results.listing.summary import summary_lines
 from mbla.results.listing.text import section_lines
-from mbla.results.listing.verdict_words import OF_SOIL, soil_flow_words
+from mbla.results.listing.verdict_words import NO_RANGE, OF_SOIL, soil_flow_words
 from tests.model.soil.decks import ARCH, BACKFILL, GROUND, WALL, fill, model
 
 DECK = Path(__file__).parents[3] / "decks" / "tutorials" / "arch_in_soil.yaml"
@@ -56,7 +56,7 @@ def test_the_model_lists_soil_apart(tmp_path: Path) -> None:
 
 def test_the_figure_of_soil_is_told_as_that_of_associative_flow() -> None:
     by_bounds, by_path = (mbla.run(DECK, set=each).records for each in ([], ["analysis.flow_rule=non_associative"]))
-    assert soil_flow_words(by_bounds.model, by_bounds.cases[0]) == OF_SOIL
+    assert soil_flow_words(by_bounds.model, by_bounds.cases[0]) == OF_SOIL + NO_RANGE
     assert OF_SOIL[:40] in "\n".join(summary_lines(by_bounds))
     assert not soil_flow_words(by_path.model, by_path.cases[0])
 

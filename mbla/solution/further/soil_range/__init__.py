@@ -1,0 +1,1 @@
+"""The range of load factors without normality of a structure with soil of cells."""
