@@ -56,7 +56,6 @@ REMARKS_THAT_WARN = frozenset(
         "pushover-rough",
         "geometric-safety-not-done",
         "sensitivity-not-done",
-        "soil-mesh-of-others",
         "soil-mesh-scatters",
         "tilt-between-not-proved",
     }

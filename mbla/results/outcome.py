@@ -257,8 +257,16 @@ def answer_of(case: CaseResult, group: str = "") -> float:
 
 
 def figure_of(case: CaseResult) -> float:
-    """The same; infinite where nothing limits it: no multiple brings anything down, forces of any size fit."""
-    return case.load_case.question.unlimited if case.status is Status.UNBOUNDED else answer_of(case)
+    """The same; infinite where nothing limits it: no multiple brings anything down, forces of any size fit.
+
+    Where corners of soil were moved for other load cases it is, if less, the upper figure on a mesh of its own.
+    """
+    figure = case.load_case.question.unlimited if case.status is Status.UNBOUNDED else answer_of(case)
+    soil = case.load_case.soil
+    if any(mesh.followed for mesh in soil if mesh.shown):
+        return figure
+    own = min((mesh.load_factor for mesh in soil if mesh.followed), default=math.inf)
+    return own if own < figure else figure
 
 
 def answer_bounds(case: CaseResult) -> tuple[float, float]:

@@ -9,6 +9,7 @@ import numpy as np
 import shapely
 
 from mbla.arrays import BoolArray, FloatArray
+from mbla.model.applied_load import AppliedLoad
 from mbla.model.model import LoadCase, Model
 from mbla.model.soil.soil_mesh import SoilCorners, SoilMesh
 from mbla.soil_mesh.scene_of_assembly import SAME, Cells
@@ -57,11 +58,16 @@ def corners_of(model: Model, cells: Cells, points: FloatArray) -> dict[str, Soil
 def with_loaded_held(cells: Cells, model: Model, load_cases: Sequence[LoadCase]) -> Cells:
     """The cells with the corners on the outline held of those that carry loads of these load cases on their faces.
 
-    What of such loads each cell carries follows from where its corners are.
+    What of such loads each cell carries hangs on where its corners are; of axles the planar scene knows how.
     """
-    loads = [load for case in load_cases for load in (*case.dead, *case.live) if not (load.on_masses or load.of_water)]
+    loads = [load for case in load_cases for load in (*case.dead, *case.live) if not _moves_along(load)]
     loaded = np.isin(cells.blocks, np.concatenate([np.empty(0, np.int64), *(load.blocks for load in loads)]))
     corners = np.zeros(len(cells.points), dtype=bool)
     corners[cells.triangles[loaded]] = True
     inside = np.concatenate([soil.inside for soil in model.soils])
     return replace(cells, held=cells.held | (corners & ~inside))
+
+
+def _moves_along(load: AppliedLoad) -> bool:
+    """Whether a planar scene says what of a load cells carry, wherever their corners are."""
+    return load.on_masses or load.of_water or bool(len(load.patches.forces) and not load.patches.spreads)

@@ -18,6 +18,7 @@ import scipy.sparse as sp
 from mbla.arrays import FloatArray, IntArray
 from mbla.soil_mesh.planar_program import Mechanism
 from mbla.soil_mesh.planar_scene import EdgeLines, PlanarScene, areas_of, edge_lines, turned
+from mbla.soil_mesh.strips import strip_power_gradient
 
 
 @dataclass(frozen=True)
@@ -110,14 +111,14 @@ def _by_corner(corners: FloatArray) -> FloatArray:
 
 
 def _power_derivatives(scene: PlanarScene, points: FloatArray, motions: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Of the powers of dead and live densities, (2 n_points,)."""
+    """Of the powers of dead and live densities and strips, (2 n_points,)."""
     n, corners = len(scene.triangles), points[scene.triangles]
     areas, middle = areas_of(scene.triangles, points), corners.mean(axis=1)
     velocity = motions[:n, :2] + motions[:n, 2:] * turned(middle - scene.centres[:n])
     by_area = _by_corner(corners)
     found = []
-    for density in (scene.dead_density, scene.live_density):
-        gradient = np.zeros_like(points)
+    for density, strips in ((scene.dead_density, scene.dead_strips), (scene.live_density, scene.live_strips)):
+        gradient = strip_power_gradient(scene, points, strips, motions)
         by_middle = (areas * motions[:n, 2] / 3.0)[:, None] * -turned(density)
         own = (velocity * density).sum(axis=1)[:, None, None] * by_area + by_middle[:, None]
         np.add.at(gradient, scene.triangles, own)

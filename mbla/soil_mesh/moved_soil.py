@@ -4,7 +4,7 @@ Moving ends in one of many meshes that are about as good, none of them the best:
 sizes, the better one is taken, and the figures of both say how far the figure hangs on the mesh.
 
 Of the positions of a travelling load the mesh follows the worst one alone. Which one that is, larger cells tell that
-are moved for each position, from those of the position before.
+are moved for each position.
 """
 
 from __future__ import annotations
@@ -14,6 +14,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from mbla.arrays import FloatArray
 from mbla.assembly import Assembly, build_assembly
 from mbla.deck import Deck
 from mbla.model import build_model
@@ -22,13 +23,16 @@ from mbla.model.soil.soil_figure import SoilFigure
 from mbla.model.soil.soil_mesh import SoilCorners
 from mbla.questions.travel import Travel
 from mbla.soil_mesh.cells_of_model import cells_of, corners_of, with_loaded_held
-from mbla.soil_mesh.moving import gain_of, move_corners
+from mbla.soil_mesh.moving import MovedMesh, MovingSettings, gain_of, move_corners
 from mbla.soil_mesh.planar_program import find_mechanism, with_unit_live_load
 from mbla.soil_mesh.planar_scene import areas_of
 from mbla.soil_mesh.scene_of_assembly import Cells, SoilScene, scene_of_assembly
 
 LARGER = 1.5
 """size of larger cells, over that which the deck asks for"""
+
+OF_EACH = MovingSettings(steps=12, eased_steps=6)
+"""how cells are moved for each position of a travelling load"""
 
 
 @dataclass(frozen=True)
@@ -54,9 +58,13 @@ def with_moved_soil(deck: Deck, assembly: Assembly, load_cases: Sequence[LoadCas
     first, larger = _mesh(assembly, 1.0), _mesh(_at_size(deck, assembly, LARGER), LARGER)
     if first is None or larger is None:
         return assembly
-    own = _own_load_factors(larger, [case.name for case in load_cases if isinstance(case.question, Travel)])
+    each = _moved_for_each(larger, [case.name for case in load_cases if isinstance(case.question, Travel)])
+    own = {name: moved.load_factor for name, moved in each.items()}
     followed = _to_follow(load_cases, own)
-    meshes = [_moved(deck, mesh, followed) for mesh in (first, larger)]
+    areas = areas_of(larger.cells.triangles, larger.cells.points)
+    if len(followed) == 1 and followed[0] in each:
+        larger = _on(deck, larger, each[followed[0]].points)
+    meshes = [_moved(deck, first, followed, None), _moved(deck, larger, followed, areas)]
     moved = [mesh for mesh in meshes if mesh is not None]
     if not moved:
         return assembly
@@ -97,39 +105,39 @@ def _to_follow(load_cases: Sequence[LoadCase], own: dict[str, float]) -> list[st
     return [min(names, key=lambda name: own.get(name, np.inf)) for names in travelling.values()]
 
 
-def _own_load_factors(mesh: _Mesh, names: Sequence[str]) -> dict[str, float]:
-    """Load factors of load cases on meshes that are moved for each, from that of the one before, by their names."""
-    found, points = {}, mesh.cells.points
-    areas = areas_of(mesh.cells.triangles, points)
+def _on(deck: Deck, mesh: _Mesh, points: FloatArray) -> _Mesh:
+    """The mesh with other corners, (n_points, 2), of its cells."""
+    assembly = build_assembly(deck, build_model(deck, corners_of(mesh.assembly.model, mesh.cells, points)))
+    cells = cells_of(assembly.model)
+    assert cells is not None
+    return _Mesh(assembly, cells, mesh.size)
+
+
+def _moved_for_each(mesh: _Mesh, names: Sequence[str]) -> dict[str, MovedMesh]:
+    """Meshes that are moved for each load case alone, by their names."""
+    found: dict[str, MovedMesh] = {}
     cases = {case.name: case for case in mesh.assembly.model.load_cases}
     for name in names:
         cells = with_loaded_held(mesh.cells, mesh.assembly.model, [cases[name]])
         scene = scene_of_assembly(mesh.assembly, cases[name], cells)
-        if scene is None:
-            continue
-        start = scene.points.copy()
-        free = ~cells.held
-        start[: len(points)][free] = points[free]
-        moved = move_corners([scene.scene], start, scene.motions, first=areas)
-        found[name] = moved.load_factor
-        if moved.mechanisms:
-            points = moved.points[: len(points)]
+        if scene is not None:
+            found[name] = move_corners([scene.scene], scene.points, scene.motions, OF_EACH)
     return found
 
 
-def _moved(deck: Deck, mesh: _Mesh, names: Sequence[str]) -> _Mesh | None:
-    """The mesh moved for load cases; None where none of these has a scene in which something moves."""
+def _moved(deck: Deck, mesh: _Mesh, names: Sequence[str], areas: FloatArray | None) -> _Mesh | None:
+    """The mesh moved for load cases; None where none of these has a scene in which something moves.
+
+    areas : (n_cells,) in the first mesh; None: it is this one
+    """
     model = mesh.assembly.model
     cells = with_loaded_held(mesh.cells, model, [case for case in model.load_cases if case.name in names])
     factors, scenes = _load_factors(mesh, names), _scenes(mesh, names, cells)
     chosen = [scenes[name] for name in factors]
     if not chosen:
         return None
-    moved = move_corners([each.scene for each in chosen], chosen[0].points, chosen[0].motions)
-    if not moved.mechanisms:
-        return None
-    assembly = build_assembly(deck, build_model(deck, corners_of(model, cells, moved.points)))
-    return _mesh(assembly, mesh.size)
+    moved = move_corners([each.scene for each in chosen], chosen[0].points, chosen[0].motions, first=areas)
+    return _on(deck, mesh, moved.points) if moved.mechanisms else None
 
 
 def _scenes(mesh: _Mesh, names: Sequence[str], cells: Cells) -> dict[str, SoilScene]:
@@ -138,7 +146,7 @@ def _scenes(mesh: _Mesh, names: Sequence[str], cells: Cells) -> dict[str, SoilSc
     found: dict[str, SoilScene] = {}
     for name in names:
         scene = scene_of_assembly(mesh.assembly, cases[name], cells)
-        if scene is None or not (scene.scene.live.any() or scene.scene.live_density.any()):
+        if scene is None or not scene.scene.loaded:
             continue
         first = next(iter(found.values()), scene)
         if scene.points.shape == first.points.shape and scene.motions.shape == first.motions.shape:

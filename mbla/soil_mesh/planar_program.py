@@ -17,6 +17,7 @@ import scipy.sparse as sp
 from mbla.arrays import FloatArray, IntArray
 from mbla.program.kinematic import ConeProgram
 from mbla.soil_mesh.planar_scene import NOTHING, PlanarScene, areas_of, cross, edge_lines
+from mbla.soil_mesh.strips import strip_loads
 from mbla.solution.cone_solvers.clarabel_adapter import ClarabelProgram
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import WITH_VALUE, IterationRecord, Status
@@ -78,15 +79,19 @@ def jump_rows(scene: PlanarScene, points: FloatArray) -> tuple[sp.csr_array, sp.
 
 
 def loads_at(scene: PlanarScene, points: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Dead and live forces and moments about centres, (n_bodies, 3), weight of the cells included."""
+    """Dead and live forces and moments about centres, (n_bodies, 3), weight of cells and strips included."""
     n = len(scene.triangles)
     areas = areas_of(scene.triangles, points)
     arms = points[scene.triangles].mean(axis=1) - scene.centres[:n]
     loads = []
-    for own, density in ((scene.dead, scene.dead_density), (scene.live, scene.live_density)):
+    parts = (
+        (scene.dead, scene.dead_density, scene.dead_strips),
+        (scene.live, scene.live_density, scene.live_strips),
+    )
+    for own, density, strips in parts:
         load = own.copy()
         load[:n] += areas[:, None] * np.column_stack([density, cross(arms, density)])
-        loads.append(load)
+        loads.append(load + strip_loads(scene, points, strips))
     return loads[0], loads[1]
 
 
@@ -122,7 +127,8 @@ def planar_program(scene: PlanarScene, points: FloatArray) -> PlanarProgram:
 def with_unit_live_load(scene: PlanarScene, points: FloatArray) -> tuple[PlanarScene, float]:
     """The scene with live loads of at most 1, and their unit, by which its load factors are too large."""
     unit = float(np.abs(loads_at(scene, points)[1]).max(initial=0.0)) or 1.0
-    return replace(scene, live=scene.live / unit, live_density=scene.live_density / unit), unit
+    strips = scene.live_strips / np.array([1.0, 1.0, unit, unit])
+    return replace(scene, live=scene.live / unit, live_density=scene.live_density / unit, live_strips=strips), unit
 
 
 def solve_linear(

@@ -17,7 +17,7 @@ P_D and P_L the powers of dead and live loads. It is a linear program, and all o
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 import scipy.sparse as sp
@@ -44,6 +44,10 @@ class PlanarScene:
                            none is guided
     dead, live           : (n_bodies, 3) forces and moments about centres, whatever the points
     dead_density, live_density : (n_cells, 2) forces per area of cells, besides
+    tops                 : (n_tops, 2) points, from left to right, of edges of the outline that strips may press on
+    under                : (n_tops,) cells below
+    dead_strips, live_strips : (n, 4) strips of the top: where each begins and ends along the first axis, and its force
+                           per length along that, besides
     """
 
     triangles: IntArray
@@ -59,6 +63,15 @@ class PlanarScene:
     live: FloatArray
     dead_density: FloatArray
     live_density: FloatArray
+    tops: IntArray = field(default_factory=lambda: np.empty((0, 2), dtype=np.int64))
+    under: IntArray = field(default_factory=lambda: np.empty(0, dtype=np.int64))
+    dead_strips: FloatArray = field(default_factory=lambda: np.empty((0, 4)))
+    live_strips: FloatArray = field(default_factory=lambda: np.empty((0, 4)))
+
+    @property
+    def loaded(self) -> bool:
+        """Whether there is a live load."""
+        return bool(self.live.any() or self.live_density.any() or self.live_strips.any())
 
     @property
     def tension(self) -> FloatArray:

@@ -3,13 +3,13 @@
 Interfaces are seen along the direction across the plane: an edge from one end to the other of their contact points,
 with the strengths of their joint law times area over length. Weight, and whatever else accelerates the mass of cells,
 is a density, so that it moves with the corners; other loads on cells act on them as they are. Crushing is that of two
-points an interface; ties and load cells are left out, as the load factor of the moved mesh is that of the structure
-that is built on it again.
+points an interface; ties, load cells and interfaces across the direction, as to spandrel walls, are left out, as the
+load factor of the moved mesh is that of the structure that is built on it again.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import scipy.sparse as sp
@@ -23,9 +23,11 @@ from mbla.model.applied_load import AppliedLoad
 from mbla.model.model import LoadCase
 from mbla.soil_mesh.outline import corner_motions, outline_of
 from mbla.soil_mesh.planar_scene import NOTHING, PlanarScene, areas_of
+from mbla.soil_mesh.strips import strip_loads
 
 ACROSS = 1e-4
-"""cosine of the angle between the normal of an interface and the direction across, up to which it is seen edge-on"""
+"""cosine of the angle between the normal of an interface and the direction across, or the plane, up to which it is seen
+edge-on, or lies in the plane"""
 
 SAME = 1e-5
 """distance over the size of cells up to which a contact point is a corner of theirs"""
@@ -72,20 +74,21 @@ class _Edges:
 
 
 def scene_of_assembly(assembly: Assembly, load_case: LoadCase, cells: Cells) -> SoilScene | None:
-    """The planar scene of a load case; None where an interface is not seen edge-on, so that there is none."""
+    """The planar scene of a load case; None where an interface is seen at an angle, so that there is none."""
     bodies = assembly.of(load_case)
     contacts = bodies.contacts
-    if np.abs(contacts.normals[: contacts.n_surfaces] @ cells.axes[2]).max(initial=0.0) > ACROSS:
+    across = np.abs(contacts.normals[: contacts.n_surfaces] @ cells.axes[2])
+    if ((across > ACROSS) & (across < 1.0 - ACROSS)).any():
         return None
+    seen = np.flatnonzero(across <= ACROSS)
     own = bodies.label[cells.blocks]
     others = np.setdiff1d(bodies.model.free, own)
     order = np.concatenate([own, others])
-    edges = _edges(bodies, cells, own)
+    edges = _edges(bodies, cells, own, seen)
     row = np.full(len(bodies.model.blocks) + len(bodies.model.grounds), NOTHING)
     row[order] = np.arange(len(order))
     laws = [bodies.model.joints[name] for name in contacts.joint_names]
-    law = contacts.joints[: len(edges.edges)]
-    width = contacts.areas[: len(edges.edges)] / edges.lengths
+    law, width = contacts.joints[seen], contacts.areas[seen] / edges.lengths
 
     def per_length(values: list[float]) -> FloatArray:
         return np.asarray(np.array(values, dtype=np.float64)[law] * width)
@@ -106,16 +109,17 @@ def scene_of_assembly(assembly: Assembly, load_case: LoadCase, cells: Cells) -> 
         dead_density=densities[0],
         live_density=densities[1],
     )
+    scene = _with_strips(scene, load_case, cells, edges.points)
     return SoilScene(scene, edges.points, _motions(edges, cells, own, law))
 
 
-def _edges(bodies: RigidBodies, cells: Cells, own: IntArray) -> _Edges:
-    """Interfaces from end to end, the body that the normal points to on the left."""
+def _edges(bodies: RigidBodies, cells: Cells, own: IntArray, seen: IntArray) -> _Edges:
+    """Interfaces that are seen edge-on, (n,), from end to end, the body that the normal points to on the left."""
     contacts, plane = bodies.contacts, cells.axes[:2].T
     n = contacts.n_surfaces
     normals = contacts.normals[:n] @ plane
     along = np.column_stack([normals[:, 1], -normals[:, 0]])
-    along = along / np.linalg.norm(along, axis=1)[:, None]
+    along = along / np.maximum(np.linalg.norm(along, axis=1), ACROSS)[:, None]
     places = contacts.points @ plane
     interface = contacts.interface_of_point
     surfaces = np.flatnonzero(interface < n)
@@ -123,9 +127,10 @@ def _edges(bodies: RigidBodies, cells: Cells, own: IntArray) -> _Edges:
     at[surfaces] = (places[surfaces] * along[interface[surfaces]]).sum(axis=1)
     order = np.lexsort((at, interface))
     ends = np.stack([order[contacts.point_start[:n]], order[contacts.point_start[1 : n + 1] - 1]], axis=1)
+    ends = ends[seen]
     lengths = at[ends[:, 1]] - at[ends[:, 0]]
-    bodies_of = contacts.bodies[:n, ::-1]
-    named = np.arange(2 * n).reshape(n, 2) + len(cells.points)
+    bodies_of = contacts.bodies[seen, ::-1]
+    named = np.arange(2 * len(seen)).reshape(-1, 2) + len(cells.points)
     corner = _corners_at(places[ends], cells)
     beside = np.asarray(np.isin(bodies_of, own).any(axis=1))[:, None] & (corner >= 0)
     points = np.vstack([cells.points, places[ends].reshape(-1, 2)])
@@ -173,6 +178,47 @@ def _loads(
         loads.append(planar)
         densities.append(density)
     return tuple(loads), tuple(densities)
+
+
+def _with_strips(scene: PlanarScene, load_case: LoadCase, cells: Cells, points: FloatArray) -> PlanarScene:
+    """The scene with what axles stand on as strips, in the place of what cells carry of them."""
+    dead, live = (_strips(each, cells) for each in (load_case.dead, load_case.live))
+    if not len(dead) + len(live):
+        return scene
+    outline = outline_of(cells.triangles)[:, ::-1]
+    own = points[outline]
+    steps = own[:, 1] - own[:, 0]
+    reach = SAME * float(np.sqrt(areas_of(cells.triangles, cells.points).mean()))
+    strips = np.concatenate([dead, live])
+    off = own[..., 1, None] - (strips[:, 4] + strips[:, 5] * (own[..., 0, None] - strips[:, 0]))
+    on_top = (steps[:, 0] > reach) & (np.abs(off) <= reach).all(axis=1).any(axis=1)
+    corners = np.sort(cells.triangles[:, [[0, 1], [1, 2], [2, 0]]], axis=2).reshape(-1, 2)
+    cell_of = {tuple(pair): row // 3 for row, pair in enumerate(corners.tolist())}
+    tops = outline[on_top]
+    under = np.array([cell_of[tuple(sorted(pair))] for pair in tops.tolist()], dtype=np.int64)
+    scene = replace(scene, tops=tops, under=under, dead_strips=dead[:, :4], live_strips=live[:, :4])
+    return replace(
+        scene,
+        dead=scene.dead - strip_loads(scene, points, scene.dead_strips),
+        live=scene.live - strip_loads(scene, points, scene.live_strips),
+    )
+
+
+def _strips(loads: tuple[AppliedLoad, ...], cells: Cells) -> FloatArray:
+    """Patches that loads press on as strips, (n, 6), with their height where they begin and their slope."""
+    found = [np.empty((0, 6))]
+    for load in loads:
+        if load.patches.spreads or not np.isin(load.blocks, cells.blocks).any():
+            continue
+        places = load.patches.corners @ cells.axes[:2].T
+        forces = load.patches.forces @ cells.axes[:2].T
+        rows, first, last = np.arange(len(places)), places[..., 0].argmin(axis=1), places[..., 0].argmax(axis=1)
+        begin, end = places[rows, first], places[rows, last]
+        lengths = end[:, :1] - begin[:, :1]
+        long = lengths[:, 0] > 0.0
+        strips = np.hstack([begin[:, :1], end[:, :1], forces / lengths, begin[:, 1:], (end - begin)[:, 1:] / lengths])
+        found.append(strips[long])
+    return np.concatenate(found)
 
 
 def _mass_forces(loads: tuple[AppliedLoad, ...], n_blocks: int) -> FloatArray:

@@ -36,6 +36,11 @@ class SoilCells(Section):
     """Soil as rigid cells: triangular prisms whose joints have the law of the soil."""
 
     size: PositiveLength = Field(description="length of the sides of the triangles, about")
+    top: PositiveLength | None = Field(
+        None,
+        description="the same along the top, at most size, from where they grow downwards: a quarter of what axles "
+        "stand on; default: as below",
+    )
 
 
 class FillCells(SoilCells):

@@ -48,7 +48,7 @@ def refuse_within_soil(below: Below, blocks: IntArray, points: FloatArray, path:
     here, above = below.at(points), below.at(points - extent * below.down)
     for soil in soils:
         if (_cells_of(soil, here) & _cells_of(soil, above) & (above != here)).any():
-            words = f"lies within {_name(soil)} and would act on cells that others cover: draw it on the top"
+            words = f"lies within {soil_name(soil.name)} and would act on cells that others cover: draw it on the top"
             site.refuse(Finding("load-on-cell", words, *path))
             return True
     return False

@@ -83,8 +83,8 @@ def _with_soil(
         return replace(soils, partial=soils.partial | {name})
     assert section.cells is not None
     corners = SoilCorners(section.cells.size, None, moved=False) if corners is None else corners
-    refuse_larger(region, section.cells.size)
-    mesh = mesh_of(region, corners.size)
+    refuse_larger(region, section.cells)
+    mesh = mesh_of(region, section.cells, corners.size)
     if corners.points is not None:
         mesh = _with_corners(mesh, corners.points, name, corners.size)
     density = density_of(deck.content.materials[section.material], deck.units)

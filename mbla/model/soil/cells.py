@@ -11,14 +11,14 @@ import shapely
 from mbla.arrays import FloatArray
 from mbla.deck.section import ROUNDING
 from mbla.deck.sections.fill import Fill
-from mbla.deck.sections.soil import SHARE_OF_WALL, laws_of_soil
+from mbla.deck.sections.soil import SHARE_OF_WALL, SoilCells, laws_of_soil
 from mbla.errors import Finding
 from mbla.model.blocks.generated import ItemRefused
 from mbla.model.blocks.soil import CELL, SoilItem
 from mbla.model.model import Ground, Joint
-from mbla.model.soil.mesh import AREA, CellSize, NotConformingError, triangulate
+from mbla.model.soil.mesh import ALONG, AREA, CellSize, NotConformingError, triangulate
 from mbla.model.soil.plane_mesh import PlaneMesh
-from mbla.model.soil.region import HeldEdge, Region
+from mbla.model.soil.region import HeldEdge, Region, tops_of
 from mbla.model.soil.soil_mesh import SoilCorners, SoilMesh
 from mbla.model.solids.blocks import Blocks, labels_of
 from mbla.model.solids.build import Labels, build_blocks
@@ -38,8 +38,11 @@ class Soil:
     grounds: tuple[Ground, ...]
 
 
-def refuse_larger(region: Region, size: float) -> None:
-    """Refuse cells of a size that is larger than the region."""
+def refuse_larger(region: Region, cells: SoilCells) -> None:
+    """Refuse cells of a size that is larger than the region, or than those along its top."""
+    size = cells.size
+    if cells.top is not None and cells.top > size:
+        raise ItemRefused(Finding("out-of-bounds", f"must be <= {size:.6g}, the size below", "cells", "top"))
     left, low, right, high = shapely.total_bounds(region.polygons)
     long = max(right - left, high - low)
     if size > long * (1 + ROUNDING):
@@ -47,8 +50,10 @@ def refuse_larger(region: Region, size: float) -> None:
         raise ItemRefused(Finding("out-of-bounds", words, "cells", "size"))
 
 
-def mesh_of(region: Region, size: float) -> PlaneMesh:
-    """Triangles of about a size in a region; raises ItemRefused where these are too many, or none fit."""
+def mesh_of(region: Region, cells: SoilCells, size: float) -> PlaneMesh:
+    """Triangles in a region, which are about a size where those of the deck are of theirs; raises ItemRefused where
+    these are too many, or none fit.
+    """
     about = region.area / (AREA * size**2)
     if about > MOST:
         makes = f"makes {_rounded_up(about):,.0f} cells" if about < 1e12 else "makes more than 1,000,000,000,000 cells"
@@ -56,10 +61,21 @@ def mesh_of(region: Region, size: float) -> PlaneMesh:
         words = f"{makes}, about; at most {MOST:,} can be handled: must be >= {least:.2g}"
         raise ItemRefused(Finding("too-many-units", words, "cells", "size"))
     try:
-        return triangulate(region.polygons, CellSize(size, region.bearings))
+        return triangulate(region.polygons, _sizes(region, cells, size))
     except NotConformingError:
         words = "cannot be divided into cells: two edges of its outline meet at nearly no angle"
         raise ItemRefused(Finding("soil-region", words)) from None
+
+
+def _sizes(region: Region, cells: SoilCells, size: float) -> CellSize:
+    """Sizes of cells: near what bears on part of a side of the region, and along its top, they may be smaller."""
+    lengths = np.linalg.norm(region.bearings[:, 1] - region.bearings[:, 0], axis=1)
+    sides, sizes = region.bearings, lengths / ALONG
+    if cells.top is not None:
+        tops = tops_of(region)
+        sides = np.concatenate([sides, tops])
+        sizes = np.append(sizes, np.full(len(tops), cells.top * size / cells.size))
+    return CellSize(size, sides, sizes)
 
 
 def _rounded_up(value: float) -> float:

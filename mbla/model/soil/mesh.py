@@ -42,20 +42,21 @@ APART = 0.7
 class CellSize:
     """How large cells are to be.
 
-    most     : size of their sides
-    bearings : (n, 2, 2) ends of segments, near which cells are smaller: four along each, growing by GROWTH away from it
+    most  : size of their sides
+    sides : (n, 2, 2) ends of segments, near which cells are smaller, and grow by GROWTH away from them
+    sizes : (n,) along these
     """
 
     most: float
-    bearings: FloatArray = field(default_factory=lambda: np.empty((0, 2, 2)))
+    sides: FloatArray = field(default_factory=lambda: np.empty((0, 2, 2)))
+    sizes: FloatArray = field(default_factory=lambda: np.empty(0))
 
     def at(self, points: FloatArray) -> FloatArray:
         """At points (n, 2), (n,)."""
         sizes = np.full(len(points), self.most)
-        for bearing in self.bearings:
-            length = float(np.linalg.norm(bearing[1] - bearing[0]))
-            away = shapely.distance(shapely.LineString(bearing), shapely.points(points))
-            sizes = np.minimum(sizes, length / ALONG + GROWTH * away)
+        for side, size in zip(self.sides, self.sizes.tolist(), strict=True):
+            away = shapely.distance(shapely.LineString(side), shapely.points(points))
+            sizes = np.minimum(sizes, size + GROWTH * away)
         return np.asarray(np.maximum(sizes, self.most / 2.0 ** (LATTICES - 1)))
 
 
@@ -84,7 +85,7 @@ def _triangulated(region: shapely.Polygon, size: CellSize) -> PlaneMesh:
     """Triangles of a polygon whose outer corners are counter-clockwise."""
     origin = np.array(region.bounds[:2])  # near zero coordinates cost no digits
     loops = [shapely.get_coordinates(ring)[:-1] - origin for ring in (region.exterior, *region.interiors)]
-    outline, edges, along = _outline(loops, replace(size, bearings=size.bearings - origin))
+    outline, edges, along = _outline(loops, replace(size, sides=size.sides - origin))
     lattice = _lattices(region, size) - origin
     points, triangles, along = _conforming(outline, edges, along, lattice)
     mesh = PlaneMesh(
@@ -163,7 +164,7 @@ def _lattices(region: shapely.Polygon, size: CellSize) -> FloatArray:
         if len(found) and kept.any():
             kept[kept] = KDTree(found).query(points[kept])[0] >= APART * there[kept]
         found = np.concatenate([found, points[kept]])
-        if not len(size.bearings):
+        if not len(size.sides):
             break
     return found
 

@@ -94,6 +94,18 @@ def with_bearings(region: Region, others: Sections, tolerance: float) -> Region:
     return replace(region, bearings=np.array(found).reshape(-1, 2, 2))
 
 
+def tops_of(region: Region) -> FloatArray:
+    """Sides of the outline above which there is no soil, steeper ones than 45 degrees left out, (n, 2, 2)."""
+    found = [np.empty((0, 2, 2))]
+    for polygon in region.polygons:
+        for ring in (polygon.exterior, *polygon.interiors):
+            corners = shapely.get_coordinates(ring)
+            sides = np.stack([corners[:-1], corners[1:]], axis=1)
+            steps = corners[1:] - corners[:-1]
+            found.append(sides[steps[:, 0] < -np.abs(steps[:, 1])])
+    return np.concatenate(found)
+
+
 def _straight_sides(corners: FloatArray) -> list[FloatArray]:
     """Sides (2, 2) of a ring of corners (n, 2), those that go straight on joined."""
     before = corners - np.roll(corners, 1, axis=0)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from mbla.errors import Message
-from mbla.model.model import LoadCase, Model
+from mbla.model.model import LoadCase
 from mbla.model.soil.soil_figure import SoilFigure, scatter_of
 
 SCATTER = 0.05
@@ -13,19 +13,16 @@ SCATTER = 0.05
 few cases (tests/performance/soil_mesh.md)"""
 
 
-def soil_mesh_remarks(model: Model, load_case: LoadCase) -> tuple[Message, ...]:
+def soil_mesh_remarks(load_case: LoadCase) -> tuple[Message, ...]:
     """The load factors of a load case on two meshes, and a warning where they are far apart."""
     figures = load_case.soil
     if not figures:
         return ()
-    size = model.units.length
-    told = ", ".join(_words(figure, model, size) for figure in figures)
+    told = ", ".join(_words(figure) for figure in figures)
     words = f"on cells whose corners were moved to where soil slips, load factors are {told}; upper ones for soil"
     remarks = [Message("soil-mesh", words)]
     if not any(figure.followed for figure in figures if figure.shown):
-        words = (
-            "corners of soil were moved for other load cases: its load factor is an upper one for soil, not a sharp one"
-        )
+        words = "the corners of soil shown were moved for other load cases: its load factor on them is not a sharp one"
         remarks.append(Message("soil-mesh-of-others", words))
     scatter = scatter_of([figure for figure in figures if figure.followed])
     if scatter > SCATTER:
@@ -34,7 +31,7 @@ def soil_mesh_remarks(model: Model, load_case: LoadCase) -> tuple[Message, ...]:
     return tuple(remarks)
 
 
-def _words(figure: SoilFigure, model: Model, length: str) -> str:
+def _words(figure: SoilFigure) -> str:
     """``198.1 (361 cells)``, with the mesh that is shown."""
     value = "unlimited" if np.isposinf(figure.load_factor) else f"{figure.load_factor:.4g}"
     if np.isneginf(figure.load_factor):

@@ -13,4 +13,4 @@ OF_STATE = frozenset({"brittle-ties", "soil-mesh", "soil-mesh-scatters", "soil-m
 
 def state_remarks(model: Model, load_case: LoadCase, solution: Solution) -> tuple[Message, ...]:
     """Of ties that break and of soil of cells."""
-    return (*brittle_remarks(model.of_case(load_case), solution), *soil_mesh_remarks(model, load_case))
+    return (*brittle_remarks(model.of_case(load_case), solution), *soil_mesh_remarks(load_case))

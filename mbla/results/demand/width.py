@@ -26,7 +26,8 @@ def width_of(model: Model, contacts: Contacts, load_case: LoadCase) -> FloatArra
     joints = (contacts.centroids - model.blocks.centroids[free].mean(axis=0)).mean(axis=0, keepdims=True)
     rows = [contacts.normals, offsets / size, model.ties.pulls, joints / size]
     for load in (load_case.dead_load[free], load_case.live_load[free]):
-        most = max(float(np.linalg.norm(load[:, :3], axis=1).max()), TINY)
+        forces, moments = (float(np.linalg.norm(part, axis=1).max()) for part in (load[:, :3], load[:, 3:]))
+        most = max(forces, moments / size, TINY)
         rows += [load[:, :3] / most, *(np.cross(axis, load[:, 3:] / (most * size)) for axis in np.eye(3))]
     in_plane = np.concatenate(rows)
     _, sizes, ways = np.linalg.svd(in_plane.T @ in_plane)

@@ -72,7 +72,7 @@ def case_from(load_case: LoadCase, get: dict[str, Any]) -> CaseResult:
             pushover=_pushover(get),
             sensitivity=records(Slope, get, "sensitivity") if "sensitivity/parameter" in get else (),
             geometric_safety=_geometric_safety(get),
-            soil_range=_records(SoilPath, get, "soil_range") if "soil_range/share" in get else (),
+            soil_range=records(SoilPath, get, "soil_range") if "soil_range/share" in get else (),
         ),
     }
     checks = held(Checks, "", get) | {"failures": _messages(get, "failures")}

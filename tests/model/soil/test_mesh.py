@@ -65,7 +65,7 @@ def test_of_about_the_size_and_not_too_thin() -> None:
 def test_cells_are_smaller_near_what_bears_on_a_side_and_grow_away_from_it() -> None:
     bearing = np.array([[[1.4, 2.0], [1.6, 2.0]]])
     region = shapely.Polygon([(0, 0), (3, 0), (3, 2), (1.6, 2), (1.4, 2), (0, 2)])
-    mesh = triangulate([region], CellSize(0.4, bearing))
+    mesh = triangulate([region], CellSize(0.4, bearing, np.array([0.05])))
     on_top = mesh.points[mesh.points[:, 1] > 2.0 - 1e-12, 0]
     assert ((on_top > 1.4 - 1e-9) & (on_top < 1.6 + 1e-9)).sum() == 5
     sizes = np.sqrt(mesh.areas(mesh.points) / (np.sqrt(3.0) / 4.0))
