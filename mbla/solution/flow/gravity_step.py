@@ -119,7 +119,7 @@ def gravity_step(joints: ElasticJoints, least_force: float = 0.0) -> Gravity:
             return _at_rest(weaker, exact, force, spent)
         if settled:
             break
-    carried = False
+    carried, begun = False, (step, state) if settled else None
     if settled:
         close, fits, more, _ = _solved(weaker, force, state)
         spent += more
@@ -135,9 +135,8 @@ def gravity_step(joints: ElasticJoints, least_force: float = 0.0) -> Gravity:
             spent += more
             settled = carried = sharp.is_solved and _is_carried(joints, sharp.state)
             state, step = (sharp.state, weaker) if carried else (state, step)
-    if not settled:
-        first = replace(step, held=HELD[-1] * joints.matrix.size)
-        found = renewed_springs(first, lambda *by: _solved(by[0], force, by[1])[:3], partial(_rest, force=force))
+    if begun is not None and not settled:
+        found = renewed_springs(*begun, lambda *near: _solved(near[0], force, near[1])[:3], partial(_rest, force=force))
         spent += found.spent
         if found.state is not None:
             return _at_rest(found.step, found.state, force, spent)

@@ -32,7 +32,7 @@ do not before it is given up."""
 MOST = 600
 """Factorisations from which on no springs are renewed."""
 
-Solve = Callable[[JointStep, StepState | None], tuple[StepState, bool, int]]
+Solve = Callable[[JointStep, StepState], tuple[StepState, bool, int]]
 """the state of a step from one nearby, whether it solves it, factorisations"""
 Rest = Callable[[JointStep, StepState], tuple[StepState | None, int]]
 """the state at rest by a solved one, None where springs carry a share; factorisations"""
@@ -47,14 +47,13 @@ class Renewed:
     spent: int
 
 
-def renewed_springs(step: JointStep, solve: Solve, rest: Rest) -> Renewed:
+def renewed_springs(step: JointStep, state: StepState, solve: Solve, rest: Rest) -> Renewed:
     """The state at rest by springs that are renewed.
 
-    step : with the first springs, which hold the blocks where they were
+    step, state : with the first springs, which hold the blocks where they were
     """
-    state, settled, spent = solve(step, None)
-    factor, still, least = SOFTER, 0, np.inf
-    while settled and still < STILL and spent < MOST:
+    factor, still, least, spent = SOFTER, 0, np.inf, 0
+    while still < STILL and spent < MOST:
         softer = replace(step, held=factor * step.held, holds_at=state.u)
         there, solved, more = solve(softer, state)
         spent += more
