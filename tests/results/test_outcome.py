@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 
 from mbla.results.outcome import (
+    associative_of,
     case_notices,
     dimension_of,
     falls_while_moving,
@@ -16,6 +17,8 @@ from mbla.results.outcome import (
 from mbla.results.results import CaseResult
 from mbla.solution.solution import ModelSize, Standing, StandingResult, Status
 from mbla.solution.standing.standing import DOUBTFUL, SLOWLY
+from mbla.solution.verification.verify import verify
+from tests.line import BLOCK, line_of, solution_of
 from tests.results.synthetic import tower_results
 
 SOLVED, FALLEN = tower_results().cases
@@ -63,6 +66,16 @@ def test_self_stress_takes_the_factor_away_but_not_the_associative_one(verdict: 
     assert (result_of(case) is not None) == has_result
     associative = replace(case, solution=replace(case.solution, flow_rule="associative"))
     assert result_of(associative) is not None
+
+
+def test_the_associative_answer_is_one_where_the_path_beside_it_came_to_none() -> None:
+    line = line_of(BLOCK, "analysis.flow_rule=non_associative")
+    solution = replace(solution_of(line), status=Status.NOT_VERIFIED, mechanics=None, reason="the path did not begin")
+    checks = verify(line.assembly, line.load_case, solution)
+    assert not checks.verified
+    assert checks.kinematic_bound == pytest.approx(0.5, rel=1e-6)
+    assert checks.gap < 1e-6
+    assert associative_of(CaseResult(line.load_case, solution, checks, Status.NOT_VERIFIED)) is solution.associative
 
 
 @pytest.mark.parametrize(("least", "known"), [(0.45, 0.45), (0.55, 0.5), (float("nan"), 0.5)])

@@ -179,12 +179,7 @@ def bound_words(model: Model, case: CaseResult) -> str:
     The kinematic bound limits the associative load factor, and that limits the load factor of any other flow rule.
     """
     verified = case.status is Status.SOLVED and not locked_in(case)
-    if (
-        verified
-        or case.status is Status.UNBOUNDED
-        or case.solution.mechanics is None
-        or np.isnan(case.checks.kinematic_bound)
-    ):
+    if verified or case.status is Status.UNBOUNDED or np.isnan(case.checks.kinematic_bound):
         return ""
     value = load_factor_words(model, case.load_case, case.checks.kinematic_bound)
     return f"certain: {case.load_case.question.limited(value)}"

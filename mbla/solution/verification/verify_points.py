@@ -88,24 +88,32 @@ def checked(case: LoadedModel, solution: Solution) -> Checks:
     """The same, by the conditions of a case."""
     if solution.mechanics is None:
         return _checked_without_mechanics(case, solution)
-    dilatancy, associative = case.limits.dilatancy_by(solution.flow_rule), solution.associative
-    residuals, bounds = residuals_of(case, solution.mechanics, dilatancy), Bounds()
-    if associative is not None:
-        least_factor = case.scale.least_factor(associative.mechanism)
-        bounds = Bounds.of(*associative_bounds(case, associative), least_factor)
+    dilatancy = case.limits.dilatancy_by(solution.flow_rule)
+    residuals, bounds = residuals_of(case, solution.mechanics, dilatancy), _bounds_of(case, solution)
     elastic = elastic_residual(case, solution.mechanics, dilatancy)
     return checks_of(residuals, bounds, failures_of(residuals, solution, bounds, elastic), elastic)
 
 
+def _bounds_of(case: LoadedModel, solution: Solution) -> Bounds:
+    """Of associative flow; NaN without it."""
+    associative = solution.associative
+    if associative is None:
+        return Bounds()
+    return Bounds.of(*associative_bounds(case, associative), case.scale.least_factor(associative.mechanism))
+
+
 def _checked_without_mechanics(case: LoadedModel, solution: Solution) -> Checks:
-    """Of a solution without forces and mechanism: of its certificate where it has one; all figures are NaN."""
+    """Of a solution without forces and mechanism: of its certificate where it has one; all figures but the bounds of
+    associative flow are NaN.
+    """
     failures: tuple[Message, ...] = (
         (Message("not-verified", solution.reason),) if solution.status is not Status.UNBOUNDED else ()
     )
     if solution.certificate is not None:
         failures = certificate_failures(case, (solution.certificate, solution.certificate_motions))
-    nan = np.nan
-    return Checks(nan, nan, nan, nan, nan, nan, nan, nan, nan, verified=not failures, failures=failures)
+    nan, bounds = np.nan, _bounds_of(case, solution)
+    figures = (nan, nan, nan, nan, nan, nan, bounds.static, bounds.kinematic, bounds.gap)
+    return Checks(*figures, verified=not failures, failures=failures)
 
 
 def verified_status(solution: Solution, checks: Checks) -> Status:
