@@ -28,6 +28,7 @@ UNUSED: dict[str, str] = {
     "PublishedScheme": "averaging max_programs",
     "SelectorTerm": "cell",
     "SoilItem": "dilatancy",
+    "Travel": "contact",
 }
 """Type -> keys that no deck gives. A new key belongs into a deck; one of these that a deck takes up leaves the list."""
 

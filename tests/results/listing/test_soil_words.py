@@ -55,7 +55,8 @@ def test_the_model_lists_soil_apart(tmp_path: Path) -> None:
 
 
 def test_the_figure_of_soil_is_told_as_that_of_associative_flow() -> None:
-    by_bounds, by_path = (mbla.run(DECK, set=each).records for each in ([], ["analysis.flow_rule=non_associative"]))
+    rules = ("analysis.flow_rule=associative", "analysis.flow_rule=non_associative")
+    by_bounds, by_path = (mbla.run(DECK, set=[each, "analysis.soil_range=false"]).records for each in rules)
     assert soil_flow_words(by_bounds.model, by_bounds.cases[0]) == OF_SOIL + NO_RANGE
     assert OF_SOIL[:40] in "\n".join(summary_lines(by_bounds))
     assert not soil_flow_words(by_path.model, by_path.cases[0])
