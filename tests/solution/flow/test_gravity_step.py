@@ -8,9 +8,9 @@ import pytest
 from mbla.program.stiffness_shares import shares_of
 from mbla.solution.flow.gravity_step import gravity_step
 from mbla.solution.law.elastic_joints import ElasticJoints
-from tests.decks.folder import BENCHMARKS, PATHS
 from mbla.solution.nonassociative.collapse_state import CollapseState
 from mbla.solution.nonassociative.imbalance import imbalance_of_own
+from tests.decks.folder import BENCHMARKS, PATHS
 from tests.line import BLOCK, HEAD, line_of, line_of_file
 from tests.solution.flow.paths import case_of, reduced, rest_of
 
