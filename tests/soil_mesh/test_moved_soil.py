@@ -85,4 +85,3 @@ def test_positions_have_the_figure_of_a_mesh_of_their_own(tmp_path: Path) -> Non
     assert min(told, key=lambda name: told[name]) == followed[0]
     for name, meshes in figures.items():
         assert told[name] <= min(mesh.load_factor for mesh in meshes) * (1.0 + 1e-6)
-
