@@ -29,7 +29,7 @@ from mbla.solution.law.joint_equations import JointStep, residual_of
 from mbla.solution.law.joint_step import direction_of, length_of
 from mbla.solution.law.newton import by_newton
 from mbla.solution.nonassociative.collapse_state import CollapseState
-from mbla.solution.nonassociative.imbalance import imbalance, imbalance_of_own
+from mbla.solution.nonassociative.imbalance import imbalance
 
 NEWTON, NEAR = 20, (1e-3, 1e-5, 1e-8)
 """Iterations of Newton's method at most, and products over n₀² with whose states it begins, where it came to nothing
@@ -66,9 +66,6 @@ SMALL = 1e-12
 CARRIED, STANDS = 1e-6, 2e-5
 """Greatest force of the springs of a structure that stands: of a block over its load, and, where interfaces have a law
 of their own, in mean loads of a block."""
-
-OF_OWN, LOOSER = 1e-6, 1e-2
-"""What springs may hold of a block, over its own load, and factor on them where they hold more of a light one."""
 
 LIGHTER, STAYS = 0.3, 0.5
 """Factor on the springs where the step was not solved with much weaker ones, and share of their force that remains in
@@ -182,16 +179,9 @@ def _exactly(step: JointStep, near: StepState | None = None) -> tuple[StepState 
     joints = step.joints
     u, factor = (np.zeros(len(joints.program.dead_load)), 0.0) if near is None else (near.u, near.factor)
     found = by_newton(step, u, factor, most=NEWTON)
-    state, spent = found.state_of(step), found.iterations
-    if found.is_solved and imbalance_of_own(joints.program, _collapse_state(state)) > OF_OWN:
-        step = replace(step, held=LOOSER * step.held)
-        further = by_newton(step, found.u, found.factor, most=NEWTON)
-        state, spent = further.state_of(step) if further.is_solved else state, spent + further.iterations
-    return state if found.is_solved and _is_carried(joints, state) else None, spent
-
-
-def _collapse_state(state: StepState) -> CollapseState:
-    return CollapseState(state.forces, state.u, state.factor, 0.0)
+    state = found.state_of(step)
+    solved = found.is_solved and _is_carried(joints, state)
+    return state if solved else None, found.iterations
 
 
 def _stays(step: JointStep, state: StepState, weaker: JointStep, close: StepState) -> bool:
@@ -217,7 +207,7 @@ def _is_carried(joints: ElasticJoints, state: StepState) -> bool:
         return True
     if joints.laws:
         return float(np.abs(joints.unbalanced(state)).max(initial=0.0)) <= STANDS
-    return imbalance(joints.program, _collapse_state(state)) <= CARRIED
+    return imbalance(joints.program, CollapseState(state.forces, state.u, state.factor, 0.0)) <= CARRIED
 
 
 def _solved(

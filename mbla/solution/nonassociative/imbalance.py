@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from mbla.arrays import FloatArray
 from mbla.program.program import Program
 from mbla.solution.nonassociative.collapse_state import CollapseState
 from mbla.solution.proof.static_repair import carried_loads
@@ -18,27 +17,13 @@ def imbalance(program: Program, state: CollapseState) -> float:
 
     Of guided blocks only what does work in the motions that their guides allow counts.
     """
-    program, forces, left = _left(program, state)
+    forces, load = state.forces, program.dead_load + state.load_factor * program.live_load
+    left = np.asarray(program.equilibrium_matrix @ forces.ravel() + load)
+    if program.of_blocks is not None:
+        lift = program.of_blocks
+        program, forces, left = lift.full, lift.contact_forces(forces), lift.motion(left)
     rows = 3 if program.components == 2 else 6
     carried = carried_loads(program, forces).reshape(-1, rows).max(axis=1)
     weightless = ~program.dead_load.reshape(-1, rows).any(axis=1) & (carried < NOTHING)
     scale = np.clip(np.where(weightless, 1.0, carried), np.finfo(float).tiny, 1.0)
     return float((np.abs(left).reshape(-1, rows).max(axis=1) / scale).max(initial=0.0))
-
-
-def imbalance_of_own(program: Program, state: CollapseState) -> float:
-    """Largest unbalanced force of a block over its own dead load, of those that have one."""
-    program, _, left = _left(program, state)
-    rows = 3 if program.components == 2 else 6
-    own = np.abs(program.dead_load).reshape(-1, rows).max(axis=1)
-    return float((np.abs(left).reshape(-1, rows).max(axis=1)[own > 0] / own[own > 0]).max(initial=0.0))
-
-
-def _left(program: Program, state: CollapseState) -> tuple[Program, FloatArray, FloatArray]:
-    """The program of the blocks, their contact forces, and what these leave without balance, (n_rows,)."""
-    forces, load = state.forces, program.dead_load + state.load_factor * program.live_load
-    left = np.asarray(program.equilibrium_matrix @ forces.ravel() + load)
-    if program.of_blocks is None:
-        return program, forces, left
-    lift = program.of_blocks
-    return lift.full, lift.contact_forces(forces), lift.motion(left)

@@ -8,11 +8,9 @@ import pytest
 from mbla.program.stiffness_shares import shares_of
 from mbla.solution.flow.gravity_step import gravity_step
 from mbla.solution.law.elastic_joints import ElasticJoints
-from mbla.solution.nonassociative.collapse_state import CollapseState
-from mbla.solution.nonassociative.imbalance import imbalance_of_own
 from tests.decks.folder import BENCHMARKS, PATHS
-from tests.line import BLOCK, HEAD, line_of, line_of_file
-from tests.solution.flow.paths import case_of, reduced, rest_of
+from tests.line import BLOCK, line_of, line_of_file
+from tests.solution.flow.paths import case_of, rest_of
 
 INCLINE = "load_cases.push.dead=[{gravity: [%s, 0, -9.81]}]"
 
@@ -80,30 +78,3 @@ def test_soil_of_cells_comes_to_rest_where_many_of_them_slide(size: float, ratio
     gravity = rest_of(line_of(SOIL, f"parameters.size={size}"), ratio)
     assert gravity.settled
     assert gravity.carried
-
-
-PILE = (
-    HEAD
-    + """\
-joints: {dry: {friction: 0.6}}
-supports: [{ground: {z: 0}}]
-load_cases: {push: {live: [{acceleration: [1, 0, 0]}]}}
-blocks:
-  - box: {group: pile, material: stone, min: [0, 0, 0], max: [1, 1, 0.1], repeat: {count: 100, translate: [0, 0, 0.1]}}
-  - polyhedron:
-      group: chip
-      material: stone
-      vertices: [[0, 0, 10], [1, 0, 10], [0, 1, 10], [0, 0, 10.002]]
-      faces: [[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]]
-"""
-)
-
-
-def test_springs_hold_nothing_of_a_light_block_where_much_gives_way_below_it() -> None:
-    """They grow with how far it comes down, and with its joints, not with its weight."""
-    line = line_of(PILE)
-    gravity = rest_of(line)
-    assert gravity.carried
-    state = gravity.state
-    rest = CollapseState(state.forces, state.u, state.factor, 0.0)
-    assert imbalance_of_own(reduced(line), rest) < 1e-7
