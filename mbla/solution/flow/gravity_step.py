@@ -22,7 +22,7 @@ from functools import partial
 import numpy as np
 
 from mbla.solution.flow.peak_step import EXACT, PeakStep, centred, solved_peak
-from mbla.solution.flow.renewed_springs import renewed_springs
+from mbla.solution.flow.renewed_springs import Renewed, are_light, renewed_springs
 from mbla.solution.law.elastic_joints import ElasticJoints, Memory, StepState
 from mbla.solution.law.exact_law import forces_by_law
 from mbla.solution.law.joint_equations import JointStep, residual_of
@@ -59,6 +59,9 @@ interfaces have a law of their own, whose bounds are curved, and least products 
 BALANCED, COMPATIBLE, EVEN = 1e-6, 1e-6, 30.0
 """Unbalanced force in mean loads of a block, incompatible velocity over the largest, and largest product N y over that
 wanted, with which a state is taken."""
+
+RELIEFS = 4
+"""Times that springs let go at most."""
 
 SMALL = 1e-12
 """Products over n₀² with which a state by renewed springs is taken at most."""
@@ -106,17 +109,17 @@ def gravity_step(joints: ElasticJoints, least_force: float = 0.0) -> Gravity:
     step = JointStep(joints, fresh, 1.0, driven=held, work=0.0, held=WEAKER * HELD[0] * joints.matrix.size)
     exact, spent = _of_points(joints, least_force) if joints.laws else _exactly(step)
     if exact is not None:
-        return _at_rest(step, exact, force, spent)
+        return _relieved(step, exact, force, spent)
     for share in HELD:
         step = JointStep(joints, fresh, 1.0, driven=held, work=0.0, held=share * joints.matrix.size)
         weaker = replace(step, held=WEAKER * step.held)
         state, settled, more, exact = _solved(step, force, exactly=None if joints.laws else partial(_exactly, weaker))
         spent += more
         if exact is not None:
-            return _at_rest(weaker, exact, force, spent)
+            return _relieved(weaker, exact, force, spent)
         if settled:
             break
-    carried, begun = False, (step, state) if settled else None
+    begun = (step, state) if settled else None
     if settled:
         close, fits, more, _ = _solved(weaker, force, state)
         spent += more
@@ -130,20 +133,45 @@ def gravity_step(joints: ElasticJoints, least_force: float = 0.0) -> Gravity:
             start = PeakStep(weaker, LEAST * force**2, close, 0.0)
             sharp, more = solved_peak(start, force, lambda found: found.misfit <= wanted, good)
             spent += more
-            settled = carried = sharp.is_solved and _is_carried(joints, sharp.state)
-            state, step = (sharp.state, weaker) if carried else (state, step)
+            if sharp.is_solved and _is_carried(joints, sharp.state):
+                return _relieved(weaker, sharp.state, force, spent)
+            settled = False
     if begun is not None and not settled:
-        found = renewed_springs(*begun, lambda *near: _solved(near[0], force, near[1])[:3], partial(_rest, force=force))
+        found = _renewed(*begun, force)
         spent += found.spent
         if found.state is not None:
             return _at_rest(found.step, found.state, force, spent)
-    return replace(_at_rest(step, state, force, spent), settled=settled, carried=carried)
+    return replace(_at_rest(step, state, force, spent), settled=settled, carried=False)
+
+
+def _renewed(step: JointStep, state: StepState, force: float) -> Renewed:
+    """Where the structure rests by springs that are renewed from a state on."""
+    return renewed_springs(step, state, lambda *near: _solved(near[0], force, near[1])[:3], partial(_rest, force=force))
+
+
+def _relieved(step: JointStep, state: StepState, force: float, spent: int) -> Gravity:
+    """What is carried, with springs that let go where they carry more than a block of little weight allows."""
+    for _ in range(RELIEFS):
+        if step.joints.laws or are_light(step, state):
+            break
+        anew = replace(step, holds_at=state.u)
+        exact = by_newton(anew, state.u, state.factor, most=NEWTON)
+        spent += exact.iterations
+        if exact.is_solved:
+            step, state = anew, exact.state_of(anew)
+        elif state.opening.any():  # not of Newton's method
+            found = _renewed(step, state, force)
+            step, state = (step, state) if found.state is None else (found.step, found.state)
+            return _at_rest(step, state, force, spent + found.spent)
+        else:
+            break
+    return _at_rest(step, state, force, spent)
 
 
 def _rest(step: JointStep, state: StepState, force: float) -> tuple[StepState | None, int]:
     """The state at rest near one in which springs carry nothing, None where they carry a share; factorisations."""
     joints = step.joints
-    if not _is_carried(joints, state):
+    if not _is_carried(joints, state) or not are_light(step, state):
         return None, 0
     good = partial(_carries, least=SMALL * force**2)
     enough = (lambda found: found.misfit <= EXACT) if joints.laws else good

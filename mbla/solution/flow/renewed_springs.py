@@ -32,6 +32,10 @@ do not before it is given up."""
 MOST = 600
 """Factorisations from which on no springs are renewed."""
 
+LIGHT = 1e-6
+"""Share of the dead load of a block that springs carry of it at most where it stands, a third of what a verification
+allows: cells of soil may have a thousandth of the mean load."""
+
 Solve = Callable[[JointStep, StepState], tuple[StepState, bool, int]]
 """the state of a step from one nearby, whether it solves it, factorisations"""
 Rest = Callable[[JointStep, StepState], tuple[StepState | None, int]]
@@ -69,6 +73,17 @@ def renewed_springs(step: JointStep, state: StepState, solve: Solve, rest: Rest)
         still = 0 if carried < LESS * least else still + 1
         least = min(least, carried)
     return Renewed(step, None, spent)
+
+
+def are_light(step: JointStep, state: StepState) -> bool:
+    """Whether springs carry next to nothing of any block, over its own dead load; of guided blocks that is not told."""
+    program = step.joints.program
+    if program.of_blocks is not None:
+        return True
+    rows = 3 if program.components == 2 else 6
+    own = np.abs(program.dead_load).reshape(-1, rows).max(axis=1)
+    springs = np.abs(step.held * (state.u - step.holds_at))[: len(program.dead_load)].reshape(-1, rows).max(axis=1)
+    return bool((springs <= LIGHT * own)[own > 0.0].all())
 
 
 def _carried(step: JointStep, u: FloatArray) -> float:

@@ -7,6 +7,7 @@ import pytest
 
 from mbla.program.stiffness_shares import shares_of
 from mbla.solution.flow.gravity_step import gravity_step
+from mbla.solution.flow.renewed_springs import are_light
 from mbla.solution.law.elastic_joints import ElasticJoints
 from tests.decks.folder import BENCHMARKS, PATHS
 from tests.line import BLOCK, line_of, line_of_file
@@ -78,3 +79,11 @@ def test_soil_of_cells_comes_to_rest_where_many_of_them_slide(size: float, ratio
     gravity = rest_of(line_of(SOIL, f"parameters.size={size}"), ratio)
     assert gravity.settled
     assert gravity.carried
+    assert are_light(gravity.step, gravity.state)
+
+
+def test_springs_that_carry_a_light_block_are_renewed() -> None:
+    line = line_of(SOIL, "parameters.size=0.5", "materials.stone.density=1e-4")
+    gravity = rest_of(line)
+    assert gravity.carried
+    assert are_light(gravity.step, gravity.state)
