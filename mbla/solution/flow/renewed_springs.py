@@ -76,14 +76,16 @@ def renewed_springs(step: JointStep, state: StepState, solve: Solve, rest: Rest)
 
 
 def are_light(step: JointStep, state: StepState) -> bool:
-    """Whether springs carry next to nothing of any block, over its own dead load; of guided blocks that is not told."""
+    """Whether springs carry next to nothing of any block, over its own dead load; of guided blocks in their motions."""
     program = step.joints.program
+    springs = np.asarray(step.held * (state.u - step.holds_at))[: len(program.dead_load)]
     if program.of_blocks is not None:
-        return True
+        lift = program.of_blocks
+        program, springs = lift.full, lift.motion(springs)
     rows = 3 if program.components == 2 else 6
     own = np.abs(program.dead_load).reshape(-1, rows).max(axis=1)
-    springs = np.abs(step.held * (state.u - step.holds_at))[: len(program.dead_load)].reshape(-1, rows).max(axis=1)
-    return bool((springs <= LIGHT * own)[own > 0.0].all())
+    carried = np.abs(springs).reshape(-1, rows).max(axis=1)
+    return bool((carried <= LIGHT * own)[own > 0.0].all())
 
 
 def _carried(step: JointStep, u: FloatArray) -> float:
