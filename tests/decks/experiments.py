@@ -9,13 +9,15 @@ from typing import Any
 MEASURED: dict[str, dict[str, tuple[float, ...]]] = {
     "walls_ws": {"n40": (16.3,), "n100": (39.4,), "n175": (66.5,), "n250": (90.2,)},
     "walls_sw": {"n30": (21.9, 22.9), "n100": (41.5, 48.2), "n200": (71.6, 68.6), "n250": (102.7,)},
+    "prestwood": {"strip": (228.0,)},
     "prestwood_strips": {"strip": (228.0,)},
 }
 """each test, or of WS their mean; sources are in the decks"""
 NAMES = {
     "walls_ws": "WS, dry granite walls",
     "walls_sw": "SW, dry sandstone walls",
-    "prestwood_strips": "Prestwood bridge, strips of soil",
+    "prestwood": "Prestwood bridge in soil",
+    "prestwood_strips": "the same, strips of soil",
 }
 
 

@@ -52,6 +52,7 @@ LONG = (
     "benchmarks/closed_forms/two_piers",
     "benchmarks/closed_forms/wall_10x10",
     "benchmarks/closed_forms/wall_20x20",
+    "benchmarks/experiments/prestwood",
     "benchmarks/experiments/walls_sw",
     "benchmarks/published/cocchetti_rizzi_mu_310_falls",
     "benchmarks/published/cocchetti_rizzi_mu_310_stands",

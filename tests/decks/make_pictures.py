@@ -215,7 +215,7 @@ def make_experiments(folder: Path) -> Path:
     return target
 
 
-STYLES = (("o", CASES[0], (9, -15)), ("s", VERMILION, (12, -2)), ("D", CASES[2], (0, 0)))
+STYLES = (("o", CASES[0], (9, -15)), ("s", VERMILION, (12, -2)), ("D", CASES[2], (0, 0)), ("v", CASES[3], (0, 0)))
 """marker and colour of each deck, and where its words begin"""
 
 

@@ -81,3 +81,25 @@ def test_prestwood_with_other_strips(computed: int) -> None:
     assert results.case("strip").load_factor == pytest.approx(computed, abs=0.51)
     page = PAGE[PAGE.index("**Prestwood in strips") :].split("\n\n")[0]
     assert re.search(rf"\b{computed}\b", page)
+
+
+IN_SOIL: dict[int, dict[str, object]] = {
+    148: {"parameters.delta": 10},
+    226: {"parameters.delta": 27},
+    242: {"parameters.delta": 30},
+    257: {"parameters.pad": 0.6},
+    291: {"parameters.pad": 0.6, "parameters.fc": 1e6},
+    181: {"parameters.cover": 0.115},
+    228: {"parameters.cover": 0.215},
+}
+"""load factor that the page has, of Prestwood in soil of cells with these values"""
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("computed", IN_SOIL)
+def test_prestwood_in_other_soil(computed: int) -> None:
+    case = mbla.run(FOLDER / "prestwood.yaml", set=IN_SOIL[computed]).case("strip")
+    assert case.verified
+    assert case.load_factor == pytest.approx(computed, rel=0.01)
+    page = PAGE[PAGE.index("**Prestwood in soil") :].split("**Prestwood in strips")[0]
+    assert re.search(rf"\b{computed}\b", page)
