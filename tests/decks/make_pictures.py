@@ -260,6 +260,7 @@ SWEEPS = (
     SweepPicture("wall_opening", ("--kind", "curve", "--result", "in_plane.load_factor", "--by", "width")),
     SweepPicture("rubble_wall", ("--kind", "distribution")),
     SweepPicture("dome_workmanship", ("--kind", "distribution")),
+    SweepPicture("prestwood", ("--kind", "curve")),
 )
 
 

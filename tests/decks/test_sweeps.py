@@ -21,6 +21,7 @@ POINTS = {
     "arch_friction_thickness": 527,
     "dome_workmanship": 96,
     "house_directions": 36,
+    "prestwood": 20,
     "rubble_wall": 500,
     "wall_opening": 66,
 }
@@ -222,6 +223,41 @@ def test_the_whole_sweep_of_the_opening() -> None:
                for row in rows if (row["rise"], row["bearing"]) == (rise, bearing)}  # fmt: skip
         if later is not None:  # the wall loses weight below: it always weakens out of its plane
             assert out[int(width) + 1] < out[int(width)]
+
+
+# --- Prestwood ----------------------------------------------------------------------------------------------------
+
+SCATTER = 0.25
+"""by which the load factor on a mesh that is moved may lie above that on another one"""
+
+
+def check_prestwood(rows: Sequence[Row]) -> None:
+    """All solved; more friction or cohesion of the soil never weakens, but for what moved meshes scatter."""
+    assert {(row["state"], row["status"]) for row in rows} == {("done", "solved")}
+    names = ("phi", "c", "delta", "size")
+    found = {tuple(number(row, name) for name in names): number(row, "load_factor") for row in rows}
+    for less, factor in found.items():
+        for more, other in found.items():
+            if less[3] == more[3] and all(np.less_equal(less, more)):
+                assert factor <= (1 + SCATTER) * other, (less, more)
+
+
+@pytest.mark.long
+def test_prestwood_with_weak_and_with_strong_soil() -> None:
+    chosen = {(27, 0, 20, 0.3), (33, 10, 27, 0.3), (30, 5, 20, 0.4)}
+    rows = solve_some(
+        prepared_sweep("prestwood"),
+        lambda row: tuple(number(row, name) for name in ("phi", "c", "delta", "size")) in chosen,
+    )
+    assert len(rows) == len(chosen)
+    check_prestwood(rows)
+
+
+@pytest.mark.trust
+def test_the_whole_sweep_of_prestwood() -> None:
+    finished, rows = whole_sweep("prestwood")
+    assert finished.exit_code == 0
+    check_prestwood(rows)
 
 
 # --- rubble wall --------------------------------------------------------------------------------------------------
