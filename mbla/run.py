@@ -126,19 +126,11 @@ def solved_case_by_case(
     """
     if options.expected and not deck.content.expected:
         raise UsageError("no-expectations", f"{deck.path}: has no expected section to compare with")
-    model = build_model(deck)
-    load_cases = select_cases(model, options.cases)
-    read = time.perf_counter()
-    assembly = build_assembly(deck, model, contacts)
-    if model.soils:
-        from mbla.soil_mesh.moved_soil import with_moved_soil  # late: few decks have cells
-
-        assembly = with_moved_soil(deck, assembly, load_cases)
-        load_cases = select_cases(assembly.model, options.cases)
+    assembly, load_cases, stages = _assembled(deck, options, started, contacts)
     found = time.perf_counter()
     settings = solver_settings(deck.analysis)
     with timing() as stopwatch:
-        results = results_before(deck, assembly, settings, {"read": read - started, "contacts": found - read})
+        results = results_before(deck, assembly, settings, stages)
         results = replace(results, not_done=tuple(case.name for case in load_cases))
         yield results
         states = StressFreeStates() if states is None else states
@@ -157,6 +149,25 @@ def solved_case_by_case(
                 pushed = push_position(deck, assembly, chosen, settings, status_file, progress, tell)
                 results = with_case(results, pushed, time.perf_counter() - found, stopwatch)
             yield as_expected(results, deck) if options.expected and not results.not_done else results
+
+
+def _assembled(
+    deck: Deck, options: RunOptions, started: float, contacts: KnownContacts | None
+) -> tuple[Assembly, tuple[LoadCase, ...], dict[str, float]]:
+    """Assembly, load cases asked for, and the seconds that model, contacts and soil took."""
+    model = build_model(deck)
+    load_cases = select_cases(model, options.cases)
+    read = time.perf_counter()
+    assembly = build_assembly(deck, model, contacts)
+    found = time.perf_counter()
+    stages = {"read": read - started, "contacts": found - read}
+    if model.soils:
+        from mbla.soil_mesh.moved_soil import with_moved_soil  # late: few decks have cells
+
+        assembly = with_moved_soil(deck, assembly, load_cases)
+        load_cases = select_cases(assembly.model, options.cases)
+        stages["soil"] = time.perf_counter() - found
+    return assembly, load_cases, stages
 
 
 def _teller(at_work: Tell[Results], results: Results, found: float, stopwatch: Stopwatch) -> Tell[CaseResult]:

@@ -115,7 +115,7 @@ class Results:
 
     provenance : versions and platform by name; ``mbla`` is the version of the program (see ``collect_provenance``)
     settings   : the analysis settings in effect, by name
-    time       : seconds by stage (read, contacts, solve, write); parts of a stage as ``solve/standing``
+    time       : seconds by stage (read, contacts, soil, solve, write); parts of a stage as ``solve/standing``
     exit_code  : exit status of the run
     created    : date of the run, UTC, ISO 8601
     files      : names of the files that were written for it, in its folder

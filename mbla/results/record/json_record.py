@@ -83,7 +83,11 @@ def notices(results: Results) -> list[Notice]:
 RUN.fields(
     Results,
     time=Field(
-        "by stage", items=("time of a stage: read, contacts, solve, write; a part of one after a slash",), unit="time"
+        "by stage",
+        items=(
+            "time of a stage: read, contacts, soil where its cells are moved, solve, write; a part of one after a slash",
+        ),
+        unit="time",
     ),
     files=Field("names of the files of the run", items=("a file",)),
     complete=Field("whether the run completed; false: cases are those completed before it stopped"),
