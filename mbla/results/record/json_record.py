@@ -84,9 +84,7 @@ RUN.fields(
     Results,
     time=Field(
         "by stage",
-        items=(
-            "time of a stage: read, contacts, soil where its cells are moved, solve, write; a part of one after a slash",
-        ),
+        items=("time of a stage: read, contacts, soil (moving its cells), solve, write; a part of one after a slash",),
         unit="time",
     ),
     files=Field("names of the files of the run", items=("a file",)),
