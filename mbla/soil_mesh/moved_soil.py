@@ -17,8 +17,9 @@ import numpy as np
 from mbla.arrays import FloatArray
 from mbla.assembly import Assembly, build_assembly
 from mbla.deck import Deck
+from mbla.errors import DeckError
 from mbla.model import build_model
-from mbla.model.model import LoadCase
+from mbla.model.model import LoadCase, Model
 from mbla.model.soil.soil_figure import SoilFigure
 from mbla.model.soil.soil_mesh import SoilCorners
 from mbla.questions.travel import Travel
@@ -55,7 +56,8 @@ def with_moved_soil(deck: Deck, assembly: Assembly, load_cases: Sequence[LoadCas
     the live load does work, the assembly stays as it is.
     """
     names = [case.name for case in load_cases]
-    first, larger = _mesh(assembly, 1.0), _mesh(_at_size(deck, assembly, LARGER), LARGER)
+    first = _mesh(assembly, 1.0)
+    larger = None if first is None else _with_corners(deck, _at_size(assembly.model, LARGER), LARGER)
     if first is None or larger is None:
         return assembly
     each = _moved_for_each(larger, [case.name for case in load_cases if isinstance(case.question, Travel)])
@@ -63,7 +65,7 @@ def with_moved_soil(deck: Deck, assembly: Assembly, load_cases: Sequence[LoadCas
     followed = _to_follow(load_cases, own)
     areas = areas_of(larger.cells.triangles, larger.cells.points)
     if len(followed) == 1 and followed[0] in each:
-        larger = _on(deck, larger, each[followed[0]].points)
+        larger = _on(deck, larger, each[followed[0]].points) or larger
     meshes = [_moved(deck, first, followed, None), _moved(deck, larger, followed, areas)]
     moved = [mesh for mesh in meshes if mesh is not None]
     if not moved:
@@ -91,10 +93,17 @@ def _mesh(assembly: Assembly, size: float) -> _Mesh | None:
     return None if cells is None else _Mesh(assembly, cells, size)
 
 
-def _at_size(deck: Deck, assembly: Assembly, size: float) -> Assembly:
-    """The assembly on cells of another size, over that which the deck asks for."""
-    corners = {soil.name: SoilCorners(size * soil.size, None, moved=False) for soil in assembly.model.soils}
-    return build_assembly(deck, build_model(deck, corners))
+def _with_corners(deck: Deck, corners: dict[str, SoilCorners], size: float) -> _Mesh | None:
+    """The mesh of a deck with other corners of cells; None where these make no valid structure."""
+    try:
+        return _mesh(build_assembly(deck, build_model(deck, corners)), size)
+    except DeckError:  # the deck itself is valid
+        return None
+
+
+def _at_size(model: Model, size: float) -> dict[str, SoilCorners]:
+    """Corners of cells of another size, over that which the deck asks for."""
+    return {soil.name: SoilCorners(size * soil.size, None, moved=False) for soil in model.soils}
 
 
 def _to_follow(load_cases: Sequence[LoadCase], own: dict[str, float]) -> list[str]:
@@ -105,12 +114,9 @@ def _to_follow(load_cases: Sequence[LoadCase], own: dict[str, float]) -> list[st
     return [min(names, key=lambda name: own.get(name, np.inf)) for names in travelling.values()]
 
 
-def _on(deck: Deck, mesh: _Mesh, points: FloatArray) -> _Mesh:
-    """The mesh with other corners, (n_points, 2), of its cells."""
-    assembly = build_assembly(deck, build_model(deck, corners_of(mesh.assembly.model, mesh.cells, points)))
-    cells = cells_of(assembly.model)
-    assert cells is not None
-    return _Mesh(assembly, cells, mesh.size)
+def _on(deck: Deck, mesh: _Mesh, points: FloatArray) -> _Mesh | None:
+    """The mesh with other corners, (n_points, 2), of its cells; None where these make no valid structure."""
+    return _with_corners(deck, corners_of(mesh.assembly.model, mesh.cells, points), mesh.size)
 
 
 def _moved_for_each(mesh: _Mesh, names: Sequence[str]) -> dict[str, MovedMesh]:
