@@ -43,6 +43,7 @@ class AppliedLoad:
     at_point  : it is one force at one point of each block; others are spread over their blocks
     of_water  : it is ground water in soil of cells, on these and on what they touch
     patches   : on which it stands, of axles that have an extent
+    on_cells  : of an even pressure, what of each face of a cell of soil it presses on
     """
 
     blocks: IntArray
@@ -54,12 +55,14 @@ class AppliedLoad:
     at_point: bool = False
     of_water: bool = False
     patches: Patches = NO_PATCHES
+    on_cells: Patches = NO_PATCHES
 
     def times(self, factor: float) -> AppliedLoad:
         """The load with a factor, which is no acceleration in g any more."""
         words = f"{factor:.6g} times {self.words}"
-        patches = replace(self.patches, forces=factor * self.patches.forces)
-        return replace(self, wrenches=factor * self.wrenches, words=words, in_g=False, patches=patches)
+        patches, on_cells = (replace(each, forces=factor * each.forces) for each in (self.patches, self.on_cells))
+        wrenches = factor * self.wrenches
+        return replace(self, wrenches=wrenches, words=words, in_g=False, patches=patches, on_cells=on_cells)
 
 
 def joined_patches(parts: Sequence[Patches]) -> Patches:

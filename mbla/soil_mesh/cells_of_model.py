@@ -70,4 +70,5 @@ def with_loaded_held(cells: Cells, model: Model, load_cases: Sequence[LoadCase])
 
 def _moves_along(load: AppliedLoad) -> bool:
     """Whether a planar scene says what of a load cells carry, wherever their corners are."""
-    return load.on_masses or load.of_water or bool(len(load.patches.forces) and not load.patches.spreads)
+    axles = len(load.patches.forces) and not load.patches.spreads
+    return load.on_masses or load.of_water or bool(axles or len(load.on_cells.forces))

@@ -207,18 +207,34 @@ def _with_strips(scene: PlanarScene, load_case: LoadCase, cells: Cells, points: 
 def _strips(loads: tuple[AppliedLoad, ...], cells: Cells) -> FloatArray:
     """Patches that loads press on as strips, (n, 6), with their height where they begin and their slope."""
     found = [np.empty((0, 6))]
-    for load in loads:
-        if load.patches.spreads or not np.isin(load.blocks, cells.blocks).any():
+    for patches in (each for load in loads for each in (load.patches, load.on_cells)):
+        if patches.spreads or not np.isin(patches.blocks, cells.blocks).any():
             continue
-        places = load.patches.corners @ cells.axes[:2].T
-        forces = load.patches.forces @ cells.axes[:2].T
+        places = patches.corners @ cells.axes[:2].T
+        forces = patches.forces @ cells.axes[:2].T
         rows, first, last = np.arange(len(places)), places[..., 0].argmin(axis=1), places[..., 0].argmax(axis=1)
         begin, end = places[rows, first], places[rows, last]
         lengths = end[:, :1] - begin[:, :1]
         long = lengths[:, 0] > 0.0
         strips = np.hstack([begin[:, :1], end[:, :1], forces / lengths, begin[:, 1:], (end - begin)[:, 1:] / lengths])
-        found.append(strips[long])
+        found.append(_joined(strips[long]))
     return np.concatenate(found)
+
+
+def _joined(strips: FloatArray) -> FloatArray:
+    """Strips, (n, 6), those that go on as one: what presses evenly on a cell and on the next is one strip."""
+    joined: list[FloatArray] = []
+    for strip in strips[np.argsort(strips[:, 0])]:
+        last = joined[-1] if joined else None
+        size = strip[1] - strip[0]
+        if last is not None and abs(last[1] - strip[0]) <= SAME * size:
+            height = last[4] + last[5] * (strip[0] - last[0])
+            even = np.abs(last[2:4] - strip[2:4]).max() <= SAME * np.abs(strip[2:4]).max()
+            if even and abs(height - strip[4]) <= SAME * size and abs(last[5] - strip[5]) <= SAME:
+                last[1] = strip[1]
+                continue
+        joined.append(strip.copy())
+    return np.reshape(joined, (-1, 6))
 
 
 def _mass_forces(loads: tuple[AppliedLoad, ...], n_blocks: int) -> FloatArray:

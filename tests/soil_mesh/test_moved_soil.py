@@ -50,6 +50,14 @@ def test_a_strip_on_clay_carries_what_prandtl_says(footing: Path) -> None:
     assert min(figure.load_factor for figure in case.load_case.soil) == pytest.approx(figure_of(case), rel=1e-5)
 
 
+def test_so_does_a_pressure_on_a_strip_of_its_width(tmp_path: Path) -> None:
+    """Corners move along the top, and what cells carry of the pressure with them."""
+    pressed = "live: [{pressure: {value: 1000, normal: [0, 0, 1], box: [[0.4, 0, 0.9], [0.9, 1, 1.1]]}, on: backfill}]"
+    (case,) = solved(tmp_path, STRIP, loads=pressed).cases
+    assert 1.0 < figure_of(case) / ((2.0 + np.pi) * 100.0) < 1.06
+    assert min(figure.load_factor for figure in case.load_case.soil) == pytest.approx(figure_of(case), rel=1e-5)
+
+
 def test_a_result_is_built_again_on_moved_corners(footing: Path) -> None:
     results, differences = verify_file(footing)
     assert differences == ()

@@ -25,7 +25,7 @@ from mbla.deck.kinds.load_key import register_load
 from mbla.deck.quantities import Box, Direction, FacingAngle, Length, Stress, UnitWeight, WallFrictionAngle
 from mbla.deck.section import Section, rule
 from mbla.errors import Finding, KeyPath
-from mbla.model.applied_load import AppliedLoad, sum_on_blocks, wrenches_of
+from mbla.model.applied_load import NO_PATCHES, AppliedLoad, Patches, sum_on_blocks, wrenches_of
 from mbla.model.loads.face_parts import FaceParts, face_parts
 from mbla.model.loads.load_kind import Entry, LoadKind, LoadSite
 from mbla.model.soil.names import is_cell
@@ -112,7 +112,26 @@ def pressure_load(entry: Entry, blocks: IntArray | None, site: LoadSite) -> Appl
         site.warn("pressure-on-part-of-face", f"{words}: {covered}; it acts on the free parts")
     loaded = areas > 0
     owner = site.blocks.block_of_face[faces[loaded]]
-    return AppliedLoad(*sum_on_blocks(owner, wrenches[loaded]), words)
+    on_cells = NO_PATCHES if pressure.per_depth else _on_cells(parts, owner, np.flatnonzero(loaded), wrenches, site)
+    return AppliedLoad(*sum_on_blocks(owner, wrenches[loaded]), words, on_cells=on_cells)
+
+
+def _on_cells(parts: FaceParts, owner: IntArray, loaded: IntArray, wrenches: FloatArray, site: LoadSite) -> Patches:
+    """What of the faces of cells of soil an even pressure acts on, from their one end along the plane to the other.
+
+    owner, loaded : (n,) blocks of the faces that are loaded, and these
+    """
+    corners, forces, cells = [], [], []
+    for soil in site.soils:
+        for row in np.flatnonzero(np.isin(owner, soil.blocks)).tolist():
+            points = parts.loops[parts.faces == loaded[row]].reshape(-1, 3)
+            level = points @ soil.axes[0]
+            first, last = points[level.argmin()], points[level.argmax()]
+            corners.append([first, last, last, first])
+            forces.append(wrenches[loaded[row], :3])
+            cells.append(owner[row])
+    shape = np.reshape(corners, (-1, 4, 3)), np.reshape(forces, (-1, 3))
+    return Patches(*shape, np.array(cells, dtype=np.int64))
 
 
 def _selected_faces(pressure: PressureLoad, chosen: IntArray, site: LoadSite) -> IntArray:

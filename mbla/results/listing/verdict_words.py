@@ -203,7 +203,8 @@ def uniqueness_words(model: Model, case: CaseResult) -> str:
 
 
 OF_SOIL = (
-    "by associative flow in soil and joints, between two proved bounds; with less dilatancy it is less, or the same"
+    "by associative flow in soil and joints, between two proved bounds of cells, an upper figure for soil; with less "
+    "dilatancy it is less, or the same"
 )
 NO_RANGE = " (soil_range tells how much)"
 
