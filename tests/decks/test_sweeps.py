@@ -227,7 +227,7 @@ def test_the_whole_sweep_of_the_opening() -> None:
 
 # --- Prestwood ----------------------------------------------------------------------------------------------------
 
-SCATTER = 0.25
+SCATTER = 0.1
 """by which the load factor on a mesh that is moved may lie above that on another one"""
 
 
