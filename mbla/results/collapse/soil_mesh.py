@@ -19,7 +19,10 @@ def soil_mesh_remarks(load_case: LoadCase) -> tuple[Message, ...]:
     if not figures:
         return ()
     told = ", ".join(_words(figure) for figure in figures)
-    words = f"on cells whose corners were moved to where soil slips, load factors are {told}; upper ones for soil"
+    words = (
+        "on cells whose corners were moved to where soil slips, the plane problem has load factors of "
+        f"{told}; upper ones for soil"
+    )
     remarks = [Message("soil-mesh", words)]
     if not any(figure.followed for figure in figures if figure.shown):
         words = "the corners of soil shown were moved for other load cases: its load factor on them is not a sharp one"
