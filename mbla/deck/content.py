@@ -201,6 +201,21 @@ def soil_of_cells(deck: DeckContent) -> Iterator[Finding]:
         if deck.contacts.table is not None:
             words = "does not go with contacts.table, in which its cells are not: leave contacts to be found"
             yield Finding("key-of-another-choice", words, *path)
+    if any(soils_of(deck)):
+        yield from _followed(deck)
+
+
+def _followed(deck: DeckContent) -> Iterator[Finding]:
+    """What is followed beyond the first movement, in which cells of soil would jam as soon as others meet."""
+    words = "does not go with soil of cells, which jam where they meet others after the first movement: leave it out"
+    for name, case in deck.load_cases.items():
+        if case.pushover is not None:
+            yield Finding("key-of-another-choice", words, "load_cases", name, "pushover")
+        given = case.settlement
+        for number, settlement in enumerate(given if isinstance(given, list) else [given]):
+            if settlement is not None and settlement.amount is not None:
+                place = (number,) if isinstance(given, list) else ()
+                yield Finding("key-of-another-choice", words, "load_cases", name, "settlement", *place, "amount")
 
 
 @rule(DeckContent)

@@ -22,6 +22,7 @@ from mbla.model import build_model
 from mbla.model.model import LoadCase, Model
 from mbla.model.soil.soil_figure import SoilFigure
 from mbla.model.soil.soil_mesh import SoilCorners
+from mbla.questions.force import Force
 from mbla.questions.travel import Travel
 from mbla.soil_mesh.cells_of_model import cells_of, corners_of, with_loaded_held
 from mbla.soil_mesh.moving import MovedMesh, MovingSettings, gain_of, move_corners
@@ -147,11 +148,15 @@ def _moved(deck: Deck, mesh: _Mesh, names: Sequence[str], areas: FloatArray | No
 
 
 def _scenes(mesh: _Mesh, names: Sequence[str], cells: Cells) -> dict[str, SoilScene]:
-    """Planar scenes of load cases by their names, those of one set of edges, in which the live load does work."""
+    """Planar scenes of load cases by their names, those of one set of edges, in which the live load does work; none of
+    forces that are sought, which have no live load of their own.
+    """
     cases = {case.name: case for case in mesh.assembly.model.load_cases}
     found: dict[str, SoilScene] = {}
     for name in names:
-        scene = scene_of_assembly(mesh.assembly, cases[name], cells)
+        scene = (
+            None if isinstance(cases[name].question, Force) else scene_of_assembly(mesh.assembly, cases[name], cells)
+        )
         if scene is None or not scene.scene.loaded:
             continue
         first = next(iter(found.values()), scene)

@@ -94,7 +94,7 @@ def pressure_load(entry: Entry, blocks: IntArray | None, site: LoadSite) -> Appl
         words = "other blocks or the ground cover all of these faces; faces: all loads them all the same"
         if soil and pressure.normal is not None:
             words = "no free face of the soil lies so: look at normal, within and box"
-        if (parts.covered < parts.areas).any():
+        if pressure.level is not None and (parts.covered < parts.areas).any():
             words = f"all of these faces lie above its level, z = {pressure.level:g}, or are covered by other blocks"
         _refuse(words, here, site)
         return None

@@ -7,6 +7,7 @@ import numpy as np
 from mbla.errors import Message
 from mbla.model.model import LoadCase
 from mbla.model.soil.soil_figure import SoilFigure, scatter_of
+from mbla.questions.load_factor import LoadFactor
 
 SCATTER = 0.05
 """of two meshes that were moved, over the lower load factor: known limit loads are missed by as much at most but in a
@@ -14,10 +15,15 @@ few cases (tests/performance/soil_mesh.md)"""
 
 
 def soil_mesh_remarks(load_case: LoadCase) -> tuple[Message, ...]:
-    """The load factors of a load case on two meshes, and a warning where they are far apart."""
+    """The load factors of a load case on two meshes, and a warning where they are far apart.
+
+    Of other questions the plane problem has another figure: it is not told.
+    """
     figures = load_case.soil
     if not figures:
         return ()
+    if not isinstance(load_case.question, LoadFactor) or load_case.question.group != "load_factor":
+        return (Message("soil-mesh", "corners of cells were moved to where soil slips"),)
     told = ", ".join(_words(figure) for figure in figures)
     words = (
         "on cells whose corners were moved to where soil slips, the plane problem has load factors of "
@@ -35,8 +41,8 @@ def soil_mesh_remarks(load_case: LoadCase) -> tuple[Message, ...]:
 
 
 def _words(figure: SoilFigure) -> str:
-    """``198.1 (361 cells)``, with the mesh that is shown."""
+    """``198.1 with 361 cells``, and whether the results are those on them."""
     value = "unlimited" if np.isposinf(figure.load_factor) else f"{figure.load_factor:.4g}"
     if np.isneginf(figure.load_factor):
         value = "none, as it falls under its dead load alone,"
-    return f"{value} with {figure.cells} cells{' (shown)' if figure.shown else ''}"
+    return f"{value} with {figure.cells} cells{', whose results these are,' if figure.shown else ''}"

@@ -10,9 +10,11 @@ from mbla.results.findings import BROKEN, rounding_of
 from mbla.results.listing.answers import answer_figure, status_name
 from mbla.results.listing.text import number, small
 from mbla.results.outcome import (
+    answer_of,
     associative_of,
     best_iterate,
     falls_while_moving,
+    figure_of,
     law_residual,
     least_of,
     locked_in,
@@ -52,6 +54,9 @@ def verdict(model: Model, case: CaseResult) -> str:
     value = _known_words(model, case, mechanics.load_factor)
     known = f"{value}, verified" if verified else f"about {value}, approximate"
     moves = question.moves(by_path=case.by_path)
+    if verified and (told := figure_of(case)) < answer_of(case):  # corners of soil follow another position
+        own = load_factor_words(model, case.load_case, told)
+        return f"{moves} at no more than {own}, on soil moved for it; at {value} on the soil of another position, shown"
     if presumes_standing(case):
         return f"it is in doubt whether it stands, and so where it {moves}; a state that fits the joint law at {known}"
     if falls_while_moving(case) and mechanics.load_factor > rounding_of(model, case):
@@ -206,6 +211,10 @@ OF_SOIL = (
     "by associative flow in soil and joints, between two proved bounds of cells, an upper figure for soil; with less "
     "dilatancy it is less, or the same"
 )
+OF_SOIL_AT_REST = (
+    "by associative flow in soil and joints, between two proved bounds of cells, a lower figure for soil; with less "
+    "dilatancy it is more, or the same"
+)
 NO_RANGE = " (soil_range tells how much)"
 
 
@@ -214,7 +223,8 @@ def soil_flow_words(model: Model, case: CaseResult) -> str:
     flows = case.solution.flow_rule == "associative" and case.load_case.question.collapses
     if not (model.soils and flows and case.status is Status.SOLVED):
         return ""
-    return OF_SOIL if case.solution.further.soil_range else OF_SOIL + NO_RANGE
+    words = OF_SOIL_AT_REST if case.load_case.question.group == "reaction" else OF_SOIL
+    return words if case.solution.further.soil_range else words + NO_RANGE
 
 
 def soil_range_words(model: Model, case: CaseResult) -> str:
