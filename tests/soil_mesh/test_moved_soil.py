@@ -11,7 +11,8 @@ import pytest
 from mbla.errors import FileError
 from mbla.process.run_options import RunOptions
 from mbla.results.hdf5.result_file import read_results_hdf5
-from mbla.results.outcome import figure_of
+from mbla.results.listing.verdict_words import verdict
+from mbla.results.outcome import answer_of, figure_of
 from mbla.results.results import Results
 from mbla.run import run
 from mbla.solution.solution import Status
@@ -93,3 +94,6 @@ def test_positions_have_the_figure_of_a_mesh_of_their_own(tmp_path: Path) -> Non
     assert min(told, key=lambda name: told[name]) == followed[0]
     for name, meshes in figures.items():
         assert told[name] <= min(mesh.load_factor for mesh in meshes) * (1.0 + 1e-6)
+    for case in results.cases:
+        words = verdict(results.model.of_case(case.load_case), case)
+        assert ("at no more than" in words) == (figure_of(case) < answer_of(case))
