@@ -18,9 +18,10 @@ import numpy as np
 import scipy.sparse as sp
 
 from mbla.arrays import FloatArray
+from mbla.model.soil.plane_mesh import areas_of
 from mbla.soil_mesh.derivatives import area_derivatives, derivatives_at
 from mbla.soil_mesh.planar_program import Mechanism, planar_program, solve_linear
-from mbla.soil_mesh.planar_scene import PlanarScene, areas_of
+from mbla.soil_mesh.planar_scene import PlanarScene
 
 LEAST = 1e-3
 """share of the greatest load factor as which smaller ones count among several"""

@@ -16,8 +16,9 @@ import numpy as np
 import scipy.sparse as sp
 
 from mbla.arrays import FloatArray, IntArray
+from mbla.model.soil.plane_mesh import areas_of
 from mbla.soil_mesh.planar_program import Mechanism
-from mbla.soil_mesh.planar_scene import EdgeLines, PlanarScene, areas_of, edge_lines, turned
+from mbla.soil_mesh.planar_scene import EdgeLines, PlanarScene, edge_lines, turned
 from mbla.soil_mesh.strips import strip_power_gradient
 
 

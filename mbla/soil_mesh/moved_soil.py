@@ -20,6 +20,7 @@ from mbla.deck import Deck
 from mbla.errors import DeckError
 from mbla.model import build_model
 from mbla.model.model import LoadCase, Model
+from mbla.model.soil.plane_mesh import areas_of
 from mbla.model.soil.soil_figure import SoilFigure
 from mbla.model.soil.soil_mesh import SoilCorners
 from mbla.questions.force import Force
@@ -27,7 +28,6 @@ from mbla.questions.travel import Travel
 from mbla.soil_mesh.cells_of_model import cells_of, corners_of, with_loaded_held
 from mbla.soil_mesh.moving import MovedMesh, MovingSettings, gain_of, move_corners
 from mbla.soil_mesh.planar_program import find_mechanism, with_unit_live_load
-from mbla.soil_mesh.planar_scene import areas_of
 from mbla.soil_mesh.scene_of_assembly import Cells, SoilScene, scene_of_assembly
 
 LARGER = 1.5
@@ -139,8 +139,7 @@ def _moved(deck: Deck, mesh: _Mesh, names: Sequence[str], areas: FloatArray | No
     """
     model = mesh.assembly.model
     cells = with_loaded_held(mesh.cells, model, [case for case in model.load_cases if case.name in names])
-    factors, scenes = _load_factors(mesh, names), _scenes(mesh, names, cells)
-    chosen = [scenes[name] for name in factors]
+    chosen = list(_scenes(mesh, names, cells).values())
     if not chosen:
         return None
     moved = move_corners([each.scene for each in chosen], chosen[0].points, chosen[0].motions, first=areas)

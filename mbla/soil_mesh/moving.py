@@ -18,9 +18,10 @@ import numpy as np
 import scipy.sparse as sp
 
 from mbla.arrays import FloatArray
+from mbla.model.soil.plane_mesh import areas_of
 from mbla.soil_mesh.corner_step import LEAST, corner_step
 from mbla.soil_mesh.planar_program import Mechanism, find_mechanism, with_unit_live_load
-from mbla.soil_mesh.planar_scene import PlanarScene, areas_of
+from mbla.soil_mesh.planar_scene import PlanarScene
 
 FLOOR = 0.1
 """of the least area: what cells at it may lose by the curvature of their area, which the linear program does not see"""

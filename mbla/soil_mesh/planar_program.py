@@ -15,8 +15,9 @@ import numpy as np
 import scipy.sparse as sp
 
 from mbla.arrays import FloatArray, IntArray
+from mbla.model.soil.plane_mesh import areas_of
 from mbla.program.kinematic import ConeProgram
-from mbla.soil_mesh.planar_scene import NOTHING, PlanarScene, areas_of, cross, edge_lines
+from mbla.soil_mesh.planar_scene import NOTHING, PlanarScene, cross, edge_lines
 from mbla.soil_mesh.strips import strip_loads
 from mbla.solution.cone_solvers.clarabel_adapter import ClarabelProgram
 from mbla.solution.settings import SolverSettings

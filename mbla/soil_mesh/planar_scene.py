@@ -107,9 +107,3 @@ def turned(vectors: FloatArray) -> FloatArray:
 def cross(one: FloatArray, other: FloatArray) -> FloatArray:
     """Component of the cross product across the plane, (...), of vectors (..., 2)."""
     return np.asarray(one[..., 0] * other[..., 1] - one[..., 1] * other[..., 0])
-
-
-def areas_of(triangles: IntArray, points: FloatArray) -> FloatArray:
-    """Areas of triangles, (n,), positive counter-clockwise."""
-    corners = points[triangles]
-    return cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]) / 2.0

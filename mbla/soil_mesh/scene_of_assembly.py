@@ -21,8 +21,9 @@ from mbla.assembly.assembly import Assembly
 from mbla.assembly.rigid_bodies import RigidBodies
 from mbla.model.applied_load import AppliedLoad
 from mbla.model.model import LoadCase
+from mbla.model.soil.plane_mesh import areas_of
 from mbla.soil_mesh.outline import corner_motions, outline_of
-from mbla.soil_mesh.planar_scene import NOTHING, PlanarScene, areas_of
+from mbla.soil_mesh.planar_scene import NOTHING, PlanarScene
 from mbla.soil_mesh.strips import strip_loads
 
 ACROSS = 1e-4

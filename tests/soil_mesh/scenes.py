@@ -11,7 +11,8 @@ import scipy.sparse as sp
 from scipy.spatial import Delaunay
 
 from mbla.arrays import FloatArray, IntArray
-from mbla.soil_mesh.planar_scene import NOTHING, PlanarScene, areas_of
+from mbla.model.soil.plane_mesh import areas_of
+from mbla.soil_mesh.planar_scene import NOTHING, PlanarScene
 
 NEAR = 1e-9
 FREE = -2

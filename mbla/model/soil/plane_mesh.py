@@ -32,5 +32,10 @@ class PlaneMesh:
 
     def areas(self, points: FloatArray) -> FloatArray:
         """Of the triangles, (m,), with their points at other places, (n, 2); negative where one is turned over."""
-        a, b, c = np.moveaxis(points[self.triangles], 1, 0)
-        return np.asarray(((b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0]) / 2)
+        return areas_of(self.triangles, points)
+
+
+def areas_of(triangles: IntArray, points: FloatArray) -> FloatArray:
+    """Areas of triangles, (n,), positive counter-clockwise."""
+    a, b, c = np.moveaxis(points[triangles], 1, 0)
+    return np.asarray(((b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0]) / 2)
