@@ -12,6 +12,7 @@ from mbla.solution.further.geometric_safety.geometric_safety import GeometricSaf
 from mbla.solution.further.sensitivity.slopes import Slope
 from mbla.solution.further.soil_range.soil_path import SoilPath
 from mbla.solution.pushover.pushover import NOT_PUSHED, Pushover
+from mbla.solution.time_history.history import NO_HISTORY, TimeHistoryResult
 
 
 @dataclass(frozen=True)
@@ -21,6 +22,7 @@ class Further:
     pushover         : the structure as it moves on; without rows where none was asked for, or could be done
     sensitivity      : slopes of the associative load factor, by the parameters that the deck asks for
     geometric_safety : of the dead load alone; None without
+    time_history     : the structure in time; without rows where none was asked for
     soil_range       : paths on which soil of cells slides with little dilatancy and with much; empty without
     """
 
@@ -28,6 +30,7 @@ class Further:
     sensitivity: tuple[Slope, ...] = ()
     geometric_safety: GeometricSafety | None = field(default=None, compare=False)
     soil_range: tuple[SoilPath, ...] = ()
+    time_history: TimeHistoryResult = NO_HISTORY
 
 
 NOTHING_FURTHER = Further()

@@ -1,0 +1,1 @@
+"""A structure in time: implicit steps of its elastic joints with masses, from rest under its dead load."""

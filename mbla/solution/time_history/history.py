@@ -1,0 +1,108 @@
+"""A time history: what became of a structure in time."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+
+from mbla.arrays import FloatArray
+from mbla.solution.time_history.frames import Frames
+from mbla.solution.time_history.step_rows import HistoryEnd, StepRows
+
+
+@dataclass(frozen=True)
+class RecordedHistories:
+    """At the points and interfaces that the deck names, m instants.
+
+    times         : (m,) s
+    displacements : (m, n_points, 3) m, relative to the base, from rest
+    velocities    : (m, n_points, 3) relative to the base
+    accelerations : (m, n_points, 3) absolute: of the base and relative
+    base          : (m, 3, 3) displacement, velocity and acceleration of the base
+    openings, slips : (m, n_interfaces) m, the largest of the points of an interface (overlap is a negative opening)
+    forces        : (m, n_interfaces, 3) normal force and shear along its two tangents, sums over its points
+    """
+
+    times: FloatArray
+    displacements: FloatArray
+    velocities: FloatArray
+    accelerations: FloatArray
+    base: FloatArray
+    openings: FloatArray
+    slips: FloatArray
+    forces: FloatArray
+
+
+@dataclass(frozen=True)
+class Peaks:
+    """Greatest values over the whole history, from every step.
+
+    displacements : (n_blocks,) m, greatest displacement of the centroid relative to the base, from rest
+    times         : (n_blocks,) s, when
+    rotations     : (n_blocks,) rad, greatest
+    residuals     : (n_blocks,) m, displacement at the end; mean over the last period of motion while it still moves
+    wanders       : (n_blocks,) m, by how much it still varied about that: the uncertainty of the residual
+    openings, slips : (n_interfaces,) m of the interfaces of the assembly
+    falling       : (n_blocks,) s when a block has fallen by half of its height; nan of those that have not
+    """
+
+    displacements: FloatArray
+    times: FloatArray
+    rotations: FloatArray
+    residuals: FloatArray
+    wanders: FloatArray
+    openings: FloatArray
+    slips: FloatArray
+    falling: FloatArray
+
+    @property
+    def block(self) -> int:
+        """The block that is displaced most."""
+        return int(self.displacements.argmax())
+
+    @property
+    def first_to_fall(self) -> int:
+        """The block that has fallen first; −1 where none has."""
+        fallen = [number for number, at in enumerate(self.falling) if not math.isnan(at)]
+        return min(fallen, key=lambda number: float(self.falling[number]), default=-1)
+
+
+@dataclass(frozen=True)
+class HalfStep:
+    """The same history with half of the step: its greatest displacement, its time, residual displacement, and end."""
+
+    peak: float
+    time: float
+    residual: float
+    end: HistoryEnd
+
+
+@dataclass(frozen=True)
+class TimeHistoryResult:
+    """What was followed.
+
+    end      : why it ends
+    sag      : m, greatest displacement by which the joints give under the dead load
+    stiffness : (2,) normal and shear stiffness of the joints, force per volume, mean
+    period   : s, first period of the joints that press at rest; nan where it was not needed
+    damping  : share of critical damping at that period that the step and the dashpots have: what was asked and h/2
+    rows, frames, histories, peaks : None where the structure does not stand
+    half     : with half of the step; None where that was not asked for
+    searches : searches for contacts
+    """
+
+    end: HistoryEnd = HistoryEnd.NONE
+    sag: float = math.nan
+    stiffness: tuple[float, float] = (math.nan, math.nan)
+    period: float = math.nan
+    damping: float = math.nan
+    rows: StepRows | None = field(default=None, compare=False)
+    frames: Frames | None = field(default=None, compare=False)
+    histories: RecordedHistories | None = field(default=None, compare=False)
+    peaks: Peaks | None = field(default=None, compare=False)
+    half: HalfStep | None = None
+    searches: int = 0
+    seconds: float = 0.0
+
+
+NO_HISTORY = TimeHistoryResult()
