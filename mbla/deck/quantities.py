@@ -162,6 +162,7 @@ NonNegativeStress: TypeAlias = Annotated[float, RealNumber("stress", ge=0, le=ST
 PositiveStress: TypeAlias = Annotated[float, RealNumber("stress", gt=0, le=STRONGEST)]
 PositiveDensity: TypeAlias = Annotated[float, RealNumber("density", gt=0)]
 PositiveUnitWeight: TypeAlias = Annotated[float, RealNumber("unit_weight", gt=0)]
+PositiveStiffness: TypeAlias = Annotated[float, RealNumber("stiffness_per_area", gt=0, le=STRONGEST)]
 Acceleration: TypeAlias = Annotated[float, RealNumber("acceleration")]
 Angle: TypeAlias = Annotated[float, RealNumber("angle")]
 FacingAngle: TypeAlias = Annotated[float, RealNumber("angle", gt=0, le=90)]

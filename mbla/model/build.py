@@ -28,7 +28,7 @@ from mbla.model.interfaces import read_interfaces
 from mbla.model.items import CollectedItems, collect_items, defects_in_words, density_of
 from mbla.model.load_cases import build_load_cases
 from mbla.model.loads.load_kind import LoadSite
-from mbla.model.model import Ground, Joint, LoadCase, Model, PrescribedInterfaces
+from mbla.model.model import SHEAR_RATIO, Ground, Joint, LoadCase, Model, PrescribedInterfaces
 from mbla.model.objective import build_objective
 from mbla.model.outside import outside
 from mbla.model.selectors import BlockSelection, check_overrides, select_blocks
@@ -231,6 +231,8 @@ def build_joint(name: str, law: JointLaw) -> Joint:
         tensile_strength=law.tensile_strength,
         compressive_strength=math.inf if law.compressive_strength is None else law.compressive_strength,
         dilatancy=min(math.tan(math.radians(law.dilatancy)), UNLIMITED),
+        normal_stiffness=math.nan if law.stiffness is None else law.stiffness.across,
+        shear_ratio=SHEAR_RATIO if law.stiffness is None else law.stiffness.ratio,
     )
 
 

@@ -13,6 +13,7 @@ from mbla.deck.units import Units
 from mbla.errors import Notice, UsageError
 from mbla.model.applied_load import AppliedLoad
 from mbla.model.fill.fill import CarriedFill
+from mbla.model.motion.time_history import TimeHistory
 from mbla.model.soil.soil_figure import SoilFigure
 from mbla.model.soil.soil_mesh import SoilMesh
 from mbla.model.solids.blocks import Blocks
@@ -21,6 +22,9 @@ from mbla.model.supports.guides import NO_GUIDES, Guides, joined, together
 from mbla.model.ties.ties import NO_TIES, Ties
 from mbla.questions import Question
 from mbla.questions.load_factor import LOAD_FACTOR
+
+SHEAR_RATIO = 0.4
+"""of an elastic joint unless the deck gives another: G/E = 1/(2 (1 + ν)) with ν = 0.25, as of stone and mortar"""
 
 
 @dataclass(frozen=True)
@@ -34,6 +38,10 @@ class Joint:
     compressive_strength: float = np.inf
     dilatancy: float = 0.0
     """tangent of the dilatancy angle"""
+    normal_stiffness: float = np.nan
+    """force per area and displacement, of time histories and modes; nan where the deck gives none"""
+    shear_ratio: float = SHEAR_RATIO
+    """stiffness along the joint over that across it"""
 
 
 @dataclass(frozen=True)
@@ -96,6 +104,8 @@ class LoadCase:
                solved, all positions that may be pushed have it, afterwards the one that is pushed
     assessment : the question to a code, None for none
     soil : its load factors on meshes of soil that were moved; none without soil of cells, or without a planar scene
+    time_history : motion of the base and forces over time; None for none
+    modes : how many modes of vibration are sought at its gravity state
     """
 
     name: str
@@ -107,6 +117,8 @@ class LoadCase:
     pushover: Pushing | None = None
     assessment: AssessmentSection | None = None
     soil: tuple[SoilFigure, ...] = ()
+    time_history: TimeHistory | None = None
+    modes: int = 0
 
     @property
     def dead_words(self) -> tuple[str, ...]:

@@ -22,12 +22,14 @@ from tests.decks.folder import PATHS, deck_of
 UNUSED: dict[str, str] = {
     "AnalysisSection": "gap max_iterations reductions residual search standing time_limit tolerance",
     "Fill": "dilatancy",
+    "JointLaw": "stiffness",
     "MeshItem": "weld",
     "OutputSection": "plots positions",
     "PushoverSection": "position",
     "PublishedScheme": "averaging max_programs",
     "SelectorTerm": "cell",
     "SoilItem": "dilatancy",
+    "StiffnessSection": "modulus normal ratio thickness",
     "Travel": "contact",
 }
 """Type -> keys that no deck gives. A new key belongs into a deck; one of these that a deck takes up leaves the list."""

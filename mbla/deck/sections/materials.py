@@ -12,10 +12,13 @@ from mbla.deck.quantities import (
     NonNegativeNumber,
     NonNegativeStress,
     PositiveDensity,
+    PositiveLength,
+    PositiveNumber,
+    PositiveStiffness,
     PositiveStress,
     PositiveUnitWeight,
 )
-from mbla.deck.section import ROUNDING, Section, exactly_one_of, given, rule
+from mbla.deck.section import ROUNDING, Section, exactly_one_of, given, one_of, rule
 from mbla.errors import Finding
 
 
@@ -44,6 +47,45 @@ BUILT_IN = (FRICTIONLESS, GLUED, OPEN)
 """Joint laws that every deck knows by name and none may declare."""
 
 
+class StiffnessSection(Section):
+    """How elastic a joint is in time histories and modes: its normal stiffness, or modulus and thickness of its mortar.
+
+    No load factor depends on it.
+    """
+
+    normal: PositiveStiffness | None = Field(
+        None, description="pressure over closing, per area of the joint; or modulus and thickness in its place"
+    )
+    modulus: PositiveStress | None = Field(
+        None, description="modulus of elasticity of what gives way; the normal stiffness is modulus over thickness"
+    )
+    thickness: PositiveLength | None = Field(
+        None,
+        description="with modulus: of the mortar, or of the units where these give way too and modulus is that of the "
+        "masonry",
+    )
+    ratio: PositiveNumber = Field(0.4, description="shear stiffness over normal stiffness")
+
+    @property
+    def across(self) -> float:
+        """Normal stiffness, force per area and displacement."""
+        if self.normal is not None:
+            return self.normal
+        assert self.modulus is not None  # a rule: it is there without normal
+        assert self.thickness is not None  # and so is this with it
+        return self.modulus / self.thickness
+
+
+@rule(StiffnessSection)
+def joint_stiffness(stiffness: StiffnessSection) -> Iterator[Finding]:
+    """One of normal and modulus; thickness goes with modulus."""
+    yield from one_of(stiffness, ("normal", "modulus"))
+    if stiffness.modulus is not None and stiffness.thickness is None:
+        yield Finding("missing-key", "needs thickness, over which the joint gives way by its modulus")
+    if stiffness.thickness is not None and stiffness.modulus is None:
+        yield Finding("key-of-another-choice", "applies with modulus only", "thickness")
+
+
 @exactly_one_of("friction", "friction_angle")
 class JointLaw(Section):
     """Joint law: Coulomb friction without tension unless strengths are given; one of friction and friction angle.
@@ -62,6 +104,9 @@ class JointLaw(Section):
         None, description="normal stress at which the joint crushes; default: unlimited"
     )
     dilatancy: FrictionAngle = Field(0.0, description="dilatancy angle in degrees, at most the friction angle")
+    stiffness: StiffnessSection | None = Field(
+        None, description="of time histories and modes: how elastic the joint is; default: next to rigid"
+    )
 
 
 @rule(JointLaw)

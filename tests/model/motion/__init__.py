@@ -1,0 +1,1 @@
+"""Tests of the motion of the base."""
