@@ -182,13 +182,13 @@ class Touching:
         new = np.full(len(bodies), -1)
         return Touching(contacts, found.faces, points, smaller, new, found.overlap)
 
-    def slips(self, pose: Pose) -> FloatArray:
+    def slips(self, placed: Placed) -> FloatArray:
         """Of the points since they were made, over the size of the smaller block, (n_points,)."""
-        return np.asarray(np.abs(self.points.at(pose).offsets[:, 1:]).max(axis=1) / self.sizes)
+        return np.asarray(np.abs(placed.offsets[:, 1:]).max(axis=1) / self.sizes)
 
     def renewed(self, found: Touching, pose: Pose) -> Touching:
         """What was found there, with the points of interfaces that were there before and have not slid."""
-        kept = self._same_interfaces(found, self.slips(pose) > SLID)
+        kept = self._same_interfaces(found, self.slips(self.points.at(pose)) > SLID)
         own, new = self.contacts.point_start, found.contacts.point_start
         counts = np.where(kept >= 0, np.diff(own)[kept], np.diff(new))
         point_start = starts(counts)

@@ -82,8 +82,8 @@ def moved_case(case: LoadCase, pose: Pose) -> LoadCase:
     """
     push = case.pushover
     assert push is not None  # else its levers are not known
-    dead = _turned(case.dead_load, push.dead_levers, push.dead_following, pose)
-    live = _turned(case.live_load, push.live_levers, push.live_following, pose)
+    dead = turned_load(case.dead_load, push.dead_levers, push.dead_following, pose)
+    live = turned_load(case.live_load, push.live_levers, push.live_following, pose)
     tilt = case.question.record(Tilt)
     question = Angle(_moved_tilt(tilt, dead, push, pose)) if tilt else case.question
     return replace(case, dead_load=dead, live_load=live, question=question)
@@ -95,12 +95,17 @@ def _moved_tilt(tilt: Tilt, dead: FloatArray, push: Pushing, pose: Pose) -> Tilt
     dead : (n_blocks, 6) there
     """
     none, levers = np.zeros_like(push.live_following), push.live_levers.reshape(-1, 3, 3)
-    turning = _turned(tilt.turning, np.cross(tilt.axis, levers).reshape(-1, 9), none, pose)
-    across = _turned(tilt.across, push.live_levers, none, pose)
+    turning = turned_load(tilt.turning, np.cross(tilt.axis, levers).reshape(-1, 9), none, pose)
+    across = turned_load(tilt.across, push.live_levers, none, pose)
     return replace(tilt, fixed=dead - turning, turning=turning, across=across)
 
 
-def _turned(load: FloatArray, levers: FloatArray, following: FloatArray, pose: Pose) -> FloatArray:
+def turned_load(load: FloatArray, levers: FloatArray, following: FloatArray, pose: Pose) -> FloatArray:
+    """Loads on blocks at a pose, (n_blocks, 6), from those as built.
+
+    levers    : (n_blocks, 9) of what keeps its direction
+    following : (n_blocks, 6) the part of the loads that turns with its block
+    """
     parts = following.reshape(-1, 2, 3)
     load = load + (np.einsum("nij,nkj->nki", pose.rotation, parts) - parts).reshape(-1, 6)
     built = levers.reshape(-1, 3, 3)

@@ -72,20 +72,22 @@ class ElasticJoints:
     def of(
         program: Program,
         shares: FloatArray,
-        ratio: float,
+        ratio: FloatArray | float,
         dilatancy: FloatArray | None = None,
         interfaces: Sequence[InterfaceRows] = (),
+        coupled: sp.coo_array | None = None,
     ) -> ElasticJoints:
         """Joints of a program.
 
         shares     : (n_points,) of the stiffness, mean 1
-        ratio      : k_T over k_N
+        ratio      : k_T over k_N, of all or (n_points,)
         dilatancy  : (n_points,) tangents of its angles; default: none
         interfaces : of the program that have a law of their own
+        coupled    : (n_rows, n_rows) entries of the matrix besides, as those of masses
         """
         slope, brittle = np.zeros(program.n_points) if dilatancy is None else dilatancy, brittle_of(program)
         program = with_rows(program, interfaces)
-        matrix = stiffness_of(with_resultants(program, interfaces))
+        matrix = stiffness_of(with_resultants(program, interfaces), coupled)
         return ElasticJoints(program, matrix, slope, shares, ratio * shares, brittle, tuple(interfaces))
 
     @property

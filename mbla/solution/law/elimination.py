@@ -89,6 +89,7 @@ class Eliminated:
             for crossing, one in zip(joints.crossings, interfaces, strict=True)
             if crossing is not None
         ]
+        further += [] if step.masses is None else [step.masses.entries]
         solve = joints.matrix.factorized(every_tangent, shift, fixed_load=not step.driven, further=further)
         if solve is None:
             return None

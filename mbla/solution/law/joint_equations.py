@@ -9,6 +9,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.solution.law.elastic_joints import ElasticJoints, Memory, StepState
+from mbla.solution.law.masses import Masses
 
 
 @dataclass(frozen=True)
@@ -21,6 +22,7 @@ class JointStep:
     work   : that work: 1, or 0 of a support that is held
     held   : (n_rows,) stiffness of springs that hold the blocks; default: none
     holds_at : (n_rows,) velocities with which these carry nothing
+    masses : of the blocks, which resist a change of their motion in time; None where nothing moves in time
     """
 
     joints: ElasticJoints
@@ -30,6 +32,7 @@ class JointStep:
     work: float = 1.0
     held: FloatArray | float = 0.0
     holds_at: FloatArray | float = 0.0
+    masses: Masses | None = None
 
     @cached_property
     def normal_compliance(self) -> FloatArray:
@@ -42,9 +45,10 @@ class JointStep:
         return 1.0 / (self.joints.shear * self.length)
 
     def balance(self, state: StepState) -> FloatArray:
-        """A x + f_D + λ f_L − ε (u − ū), and f_L·u − w, which is 0 where the load factor stays; (n_rows + 1,)."""
+        """A x + f_D + λ f_L − ε (u − ū) − M (u − u_f), and f_L·u − w, 0 where the load factor stays; (n_rows + 1,)."""
         work = float(self.joints.program.live_load @ state.u) - self.work if self.driven else 0.0
-        return np.append(self.joints.unbalanced(state) - self.held * (state.u - self.holds_at), work)
+        left = self.joints.unbalanced(state) - self.held * (state.u - self.holds_at)
+        return np.append(left if self.masses is None else left - self.masses.resistance(state.u), work)
 
     def openings(self, state: StepState, velocities: FloatArray) -> FloatArray:
         """Openings y of a state by the velocities of its contacts and its normal forces, (n_points,)."""

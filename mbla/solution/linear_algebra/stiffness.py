@@ -186,18 +186,21 @@ class Stiffness(Places):
         return pattern
 
 
-def stiffness_of(program: Program) -> Stiffness:
-    """Pattern, places and order of elimination of a program."""
+def stiffness_of(program: Program, coupled: sp.coo_array | None = None) -> Stiffness:
+    """Pattern, places and order of elimination of a program.
+
+    coupled : (n_rows, n_rows) entries that K has besides those of its joints, as those of masses; None for none
+    """
     matrix = program.equilibrium_matrix
-    found = _places(matrix, program.components, program.n_points)
+    found = _places(matrix, program.components, program.n_points, coupled)
     return Stiffness(**vars(found), program=program)
 
 
-def _places(matrix: sp.csr_array, components: int, n_points: int) -> Places:
+def _places(matrix: sp.csr_array, components: int, n_points: int, coupled: sp.coo_array | None) -> Places:
     """Of an equilibrium matrix, (n_rows, components n_points)."""
     n, compatibility = matrix.shape[0], sp.csr_array(matrix.T)
     sets = _point_sets(compatibility, components, n_points)
-    pattern = _pattern(n, [(rows, blocks) for _, rows, blocks in sets])
+    pattern = _pattern(n, [(rows, blocks) for _, rows, blocks in sets], coupled)
     order = np.append(elimination_order(pattern), n)
     place_of = np.empty(n + 1, dtype=np.int64)
     place_of[order] = np.arange(n + 1)
@@ -247,10 +250,12 @@ def _point_sets(
     return sets
 
 
-def _pattern(n: int, sets: list[tuple[IntArray, FloatArray]]) -> sp.coo_array:
+def _pattern(n: int, sets: list[tuple[IntArray, FloatArray]], coupled: sp.coo_array | None) -> sp.coo_array:
     """Entries of K that can differ from zero, and the whole diagonal, as ones."""
     rows = [np.repeat(rows, rows.shape[1], axis=1).ravel() for rows, _ in sets]
     columns = [np.tile(rows, (1, rows.shape[1])).ravel() for rows, _ in sets]
+    if coupled is not None:
+        rows, columns = [*rows, coupled.coords[0]], [*columns, coupled.coords[1]]
     row, column = np.concatenate([*rows, np.arange(n)]), np.concatenate([*columns, np.arange(n)])
     keys = distinct(row * n + column)
     return sp.coo_array((np.ones(len(keys)), (keys // n, keys % n)), shape=(n, n))

@@ -11,6 +11,7 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from mbla.arrays import BoolArray, FloatArray, IntArray
+from mbla.contacts.carried import Placed, Touching
 from mbla.solution.law.elastic_joints import StepState, smoothed_margin, within
 from mbla.solution.pushover.place import PushedPlace
 from mbla.solution.pushover.pose.moved_joints import History, JointsAt, MovedJoints
@@ -28,7 +29,7 @@ def inherited(place: PushedPlace, joints: MovedJoints, at: JointsAt) -> tuple[Hi
     old, touching = place.joints, joints.touching
     n_before, n_now, new = len(old.areas), len(joints.areas), touching.before < 0
     kept, stays = np.flatnonzero(~new), touching.before[~new]
-    source = _sources(place, joints, at)
+    source = sources(old.touching, place.at.placed, touching, at.placed)
     known, gone = source >= 0, np.ones(n_before, dtype=bool)
     gone[stays] = False
     share = np.where(new & known, joints.areas / old.areas[source], 1.0)
@@ -38,7 +39,7 @@ def inherited(place: PushedPlace, joints: MovedJoints, at: JointsAt) -> tuple[Hi
     carries = ~new | (np.abs(gaps - usual / stiffness) < ALIKE * touching.sizes)
     takes = ~new | (known & carries & gone[source])
     begun = np.zeros((len(joints.contacts.points), 3))
-    begun[:n_now][takes] = _turned(place, at, before, takes, source) * share[takes, None]
+    begun[:n_now][takes] = turned(place.at.placed, at.placed, before, takes, source) * share[takes, None]
     begun[:n_now] = _balanced(place, joints, at, before[:n_before], begun[:n_now], carries)
     presses = new & (begun[:n_now, 0] > 0.0)
     at_zero = begun.copy()
@@ -139,7 +140,8 @@ def _balanced(
     of_pair = [_rows_of(own, count) for own in (pair[:n], pair[n:])]
     limits, force = joints.full.limits, joints.full.scaling.force
     tension, cohesion, strength = (own * force for own in (limits.tension, limits.cohesion, limits.compression))
-    stiffness = joints.structure.stiffness * joints.areas[:, None] * [1.0, joints.ratio, joints.ratio]
+    stiffness = joints.structure.stiffness * joints.areas[:, None] * np.ones(3)
+    stiffness[:, 1:] *= joints.ratio * joints.structure.along(joints.touching)[:, None]
     stiffness[~carries] = 0.0
     found = begun.copy()
     for one in np.flatnonzero(changed):
@@ -196,25 +198,27 @@ def _wrenches(places: FloatArray, frames: FloatArray, centre: FloatArray, size: 
     return np.concatenate([frames, np.cross((places - centre)[:, None, :], frames) / size], axis=2)
 
 
-def _turned(place: PushedPlace, at: JointsAt, forces: FloatArray, takes: BoolArray, source: IntArray) -> FloatArray:
+def turned(was: Placed, there: Placed, forces: FloatArray, takes: BoolArray, source: IntArray) -> FloatArray:
     """Forces of points before in the frames of those that take them over, (n, 3): shear keeps its way in space."""
-    before, now = place.at.placed.frames[source[takes]], at.placed.frames[takes]
+    before, now = was.frames[source[takes]], there.frames[takes]
     own = forces[source[takes]]
     along = np.einsum("nk,nkj->nj", own[:, 1:], before[:, 1:])
     return np.column_stack([own[:, 0], np.einsum("nkj,nj->nk", now[:, 1:], along)])
 
 
-def _sources(place: PushedPlace, joints: MovedJoints, at: JointsAt) -> IntArray:
-    """The point before of each point, the nearest of its pair for a new one, (n_points,); −1 without any."""
-    before, now = place.joints.touching, joints.touching
+def sources(before: Touching, was: Placed, now: Touching, there: Placed) -> IntArray:
+    """The point before of each point, the nearest of its pair for a new one, (n_points,); −1 without any.
+
+    was, there : the points before, and those now, at the pose
+    """
     source, new = now.before.copy(), np.flatnonzero(now.before < 0)
     if not len(new) or not len(before.before):
         return source
     bodies = np.vstack([before.points.bodies, now.points.bodies[new]])
     pair = 2.0 * SAME_PAIR * np.unique(bodies, axis=0, return_inverse=True)[1].ravel()
-    size, n = float(np.ptp(at.placed.points, axis=0).max()) or 1.0, len(before.before)
-    tree = cKDTree(np.column_stack([place.at.placed.points / size, pair[:n]]))
-    places = np.column_stack([at.placed.points[new] / size, pair[n:]])
+    size, n = float(np.ptp(there.points, axis=0).max()) or 1.0, len(before.before)
+    tree = cKDTree(np.column_stack([was.points / size, pair[:n]]))
+    places = np.column_stack([there.points[new] / size, pair[n:]])
     distance, nearest = (np.asarray(each) for each in tree.query(places))
     near = distance < SAME_PAIR
     source[new[near]] = nearest[near]

@@ -111,8 +111,6 @@ def _recorded(row: Row) -> RecordedRow:
     contacts, n_ties, structure = joints.touching.contacts, len(joints.ties), joints.structure
     at_zero = row.history.values.copy()
     at_zero[1:] += joints.shear_stiffness * row.history.slips
-    laws = list(structure.model.joints)
-    of_contact = np.array([laws.index(name) for name in contacts.joint_names], dtype=np.int64)
     always = np.zeros((len(row.forces), 3))  # N is what the force of a tie differs from it
     if n_ties and joints.contacts.ties is not None:
         always[-n_ties:, 0] = joints.contacts.ties.offsets
@@ -121,7 +119,7 @@ def _recorded(row: Row) -> RecordedRow:
         host=_with_ties(points.host, n_ties, False),
         arms=_with_ties(points.arms.transpose(1, 0, 2), n_ties, 0.0),
         frames=_with_ties(points.frames, n_ties, 0.0),
-        laws=np.append(of_contact[contacts.joints][contacts.interface_of_point], joints.ties),
+        laws=np.append(structure.laws_of(contacts)[contacts.interface_of_point], joints.ties),
         areas=np.column_stack([np.append(contacts.point_areas, np.zeros(n_ties)), joints.full.facts.areas]),
         history=joints.forces(at_zero) + always,
         forces=row.forces + always,

@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from mbla.arrays import BoolArray
+from mbla.contacts.carried import Placed
 from mbla.model.pose import Pose
 from mbla.model.solids.measures import connected_labels
 from mbla.solution.pushover.inherited import inherited
@@ -45,8 +46,11 @@ def renewed(place: PushedPlace, is_over: Callable[[BoolArray], bool], falls: Boo
     return replace(place, joints=replace(joints, fallen=fallen))
 
 
-def is_stale(joints: MovedJoints, pose: Pose) -> bool:
-    """Whether contacts may have come, or slipped, since they were found."""
+def is_stale(joints: MovedJoints, pose: Pose, placed: Placed | None = None) -> bool:
+    """Whether contacts may have come, or slipped, since they were found.
+
+    placed : contact points at the pose, where they are known
+    """
     since, solids = joints.found_at, joints.structure.solids.model.blocks
     sizes, (first, second) = solids.sizes, joints.nearness.pairs.T
     ways, turns = [], []
@@ -63,7 +67,8 @@ def is_stale(joints: MovedJoints, pose: Pose) -> bool:
     alone = alone + 0.5 * np.sqrt(np.maximum(3.0 - turned, 0.0))
     if bool(np.any(alone > np.where(joints.nearness.of_ground, MOVED, FAR))):
         return True
-    return bool(np.any(joints.touching.slips(pose) > SLIPPED))
+    slips = joints.touching.slips(joints.touching.points.at(pose) if placed is None else placed)
+    return bool(np.any(slips > SLIPPED))
 
 
 def _hanging(joints: MovedJoints, history: History) -> BoolArray:

@@ -20,18 +20,17 @@ import numpy as np
 
 from mbla.arrays import BoolArray, FloatArray
 from mbla.model.pose import Pose
-from mbla.model.ties.moved import TieHistory
 from mbla.solution.flow.unit_of_displacement import elastic_motion
 from mbla.solution.pushover.control import MOVES, Control
 from mbla.solution.pushover.curve_rows import CurveEnd
 from mbla.solution.pushover.jump import jump
-from mbla.solution.pushover.place import Energy, PushedPlace, Row, place_after, row_after
-from mbla.solution.pushover.pose.moved_joints import History, MovedJoints
+from mbla.solution.pushover.place import PushedPlace, Row, place_after, row_after
 from mbla.solution.pushover.pose.pose_step import PoseStep, greatest_motion, turned_on
 from mbla.solution.pushover.pose.smoothed_step import Smoothed, smoothed
 from mbla.solution.pushover.pose.solved_step import solved
 from mbla.solution.pushover.pose.structure import PushedStructure
 from mbla.solution.pushover.renewal import renewed
+from mbla.solution.pushover.rest import at_rest
 from mbla.solution.pushover.rows_of_way import RowsOfWay
 from mbla.solution.solution import Mechanics
 
@@ -198,20 +197,9 @@ class Way:
 
     def at_rest(self) -> PushedPlace | None:
         """Under the dead load, or on its support; None where that is not found."""
-        structure = self.structure
-        none = np.zeros(structure.n_solids, dtype=np.bool_)
-        ties, pose = TieHistory.at_rest(structure.model.ties), Pose.at_rest(structure.n_solids)
-        joints = MovedJoints.at_pose(structure, pose, none, ties.broken(structure.model.ties), RATIO)
-        slips = np.zeros((joints.components - 1, joints.n_points))
-        history = History(np.zeros((joints.components, joints.n_points)), slips)
-        at = joints.there(pose, 0.0)
-        step = PoseStep(joints, history, at, 0.0, 0.0, driven=self.settles)
-        found = solved(step)
-        self.spent += step.spent
-        if found is None or not found.solved:
-            return None
-        after, factor = step.after(found.at, found.forces.normal), joints.full.scaling.load_factor(found.factor)
-        return PushedPlace(found.at, joints, after, None, factor, np.zeros((len(none), 6)), 0.0, ties, Energy())
+        place, spent = at_rest(self.structure, RATIO, settles=self.settles)
+        self.spent += spent
+        return place
 
     def displacement(self, pose: Pose) -> float:
         """Of the control point, m."""

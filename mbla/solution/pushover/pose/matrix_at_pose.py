@@ -85,21 +85,32 @@ class MatrixAtPose:
         """Aᵀ of the program that is solved with entries numbered from 1, and these as sums of entries of the full A."""
         row, column = self._places
         lift, n = self.reduced.lift, len(self.reduced.dead_load)
-        velocities, forces = lift.velocities, lift.forces
-        of_row, of_column = np.diff(velocities.indptr)[row], np.diff(forces.indptr)[column]
-        size = of_row * of_column
-        entry = np.repeat(np.arange(len(row)), size)
-        within = ranges(np.zeros_like(size), size)
-        first = velocities.indptr[row[entry]] + within // of_column[entry]
-        second = forces.indptr[column[entry]] + within % of_column[entry]
-        value = velocities.data[first] * forces.data[second]
+        entry, at_row, at_column, value = spread(lift.velocities, lift.forces, row, column)
         value = value * self.full.scaling.row[row[entry]] * self.full.scaling.force
-        keys = forces.indices[second].astype(np.int64) * n + velocities.indices[first]
+        keys = at_column * n + at_row
         every, place = np.unique(keys, return_inverse=True)
         summing = sp.csr_array(sp.coo_array((value, (place.ravel(), entry)), shape=(len(every), len(row))))
         shape = (self.reduced.components * self.reduced.n_points, n)
         numbered = sp.coo_array((np.arange(1.0, len(every) + 1.0), (every // n, every % n)), shape=shape)
         return sp.csr_array(numbered), summing
+
+
+def spread(
+    first: sp.csr_array, second: sp.csr_array, rows: IntArray, columns: IntArray
+) -> tuple[IntArray, IntArray, IntArray, FloatArray]:
+    """Entries of Sᵀ X P that entries of X, (m,), go to: number of the entry, row, column and factor of each.
+
+    first, second : S and P, by rows
+    rows, columns : (m,) of X
+    """
+    of_row, of_column = np.diff(first.indptr)[rows], np.diff(second.indptr)[columns]
+    size = of_row * of_column
+    entry = np.repeat(np.arange(len(rows)), size)
+    within = ranges(np.zeros_like(size), size)
+    one = first.indptr[rows[entry]] + within // of_column[entry]
+    other = second.indptr[columns[entry]] + within % of_column[entry]
+    places = first.indices[one].astype(np.int64), second.indices[other].astype(np.int64)
+    return entry, *places, first.data[one] * second.data[other]
 
 
 def _crossed(first: FloatArray, second: FloatArray) -> FloatArray:

@@ -27,6 +27,7 @@ from mbla.program.reductions.steps import ReductionSwitches
 from mbla.program.stiffness_shares import stiffness_through
 from mbla.solution.law.elastic_joints import ElasticJoints
 from mbla.solution.linear_algebra.stiffness import Stiffness
+from mbla.solution.pushover.pose.masses_at_pose import MassesAtPose
 from mbla.solution.pushover.pose.matrix_at_pose import MatrixAtPose
 from mbla.solution.pushover.pose.nearness import Nearness
 from mbla.solution.pushover.pose.structure import PushedStructure
@@ -151,6 +152,37 @@ class MovedJoints:
         return MatrixAtPose(self.touching.points.bodies, self.row_of_solid, self._of_ties, self.full, self.reduced)
 
     @cached_property
+    def masses(self) -> MassesAtPose:
+        """Where masses of the solids go among the entries of the program."""
+        return MassesAtPose(self.reduced)
+
+    @cached_property
+    def mass_places(self) -> IntArray:
+        """Of the entries of masses among those of the stiffness, (nnz,)."""
+        return self.masses.pattern.places(self._joints.matrix)
+
+    @cached_property
+    def normal_scale(self) -> tuple[FloatArray, FloatArray]:
+        """Offsets across the points of the program over those in the deck's unit, and sizes of their smaller blocks.
+
+        (n_points,) each; ties have the mean size.
+        """
+        weights, scaling = abs(self.reduced.lift.normal_forces).T, self.full.scaling
+        total = np.asarray(weights @ np.ones(weights.shape[1]))
+        mean = float(self.structure.solids.model.blocks.sizes.mean())
+        sizes = np.append(self.touching.sizes, np.full(len(self.ties), mean))
+        return total * (scaling.force / scaling.live), np.asarray(weights @ sizes) / np.maximum(total, 1e-300)
+
+    @cached_property
+    def along(self) -> FloatArray:
+        """Shear stiffness of the points of the program over that of joints without one of their own, (n_points,)."""
+        own = np.append(self.structure.along(self.touching), np.ones(len(self.ties)))
+        if (own == 1.0).all():
+            return np.ones(self.n_points)
+        weights = abs(self.reduced.lift.normal_forces).T
+        return np.asarray((weights @ own) / (weights @ np.ones(len(own))))
+
+    @cached_property
     def is_tie(self) -> BoolArray:
         """Which points of the program are ties, (n_points,)."""
         own = np.repeat(self.contacts.tie_points.astype(np.float64), 3)
@@ -160,7 +192,7 @@ class MovedJoints:
     @property
     def shear_stiffness(self) -> FloatArray:
         """k_T of the points of the program, (n_points,)."""
-        return self.ratio * self.length * self.shares
+        return np.asarray(self.ratio * self.along * self.length * self.shares)
 
     @property
     def components(self) -> int:
@@ -174,26 +206,36 @@ class MovedJoints:
 
     def there(self, pose: Pose, factor: float) -> JointsAt:
         """The joints at a pose, with loads for a load factor of the program."""
-        placed, ties = self.touching.points.at(pose), self._of_ties.at(pose)
-        centres = self.structure.solids.model.blocks.centroids + pose.shift
-        matrix = self._stiffness(self._matrix.entries(placed, ties, centres))
+        found = self.unloaded(pose)
         row, scaling = self.full.scaling.row, self.full.scaling
         load_factor = scaling.load_factor(factor)
         dead, live, change = self.structure.loads_at(pose, self.fallen, load_factor)
-        every = dead + self._of_ties.prestress_load(ties, centres), live
+        every = dead + found.loads[0], live
         linear = every[0] + load_factor * (live - change), change
         loads = [each[self.full.facts.free].ravel() for each in linear]
         ways = self.ways[0].T
         program = replace(
-            self.reduced,
-            equilibrium_matrix=sp.csr_array(matrix.compatibility.T),
+            found.joints.program,
             dead_load=np.asarray(ways @ (row * loads[0])),
             live_load=np.asarray(ways @ (row * loads[1] * scaling.live)),
         )
+        joints = replace(found.joints, program=program, matrix=replace(found.joints.matrix, program=program))
+        return replace(found, joints=joints, loads=every)
+
+    def unloaded(self, pose: Pose) -> JointsAt:
+        """The joints at a pose without loads but those of prestress, which are not in their program."""
+        placed, ties = self.touching.points.at(pose), self._of_ties.at(pose)
+        centres = self.structure.solids.model.blocks.centroids + pose.shift
+        matrix = self._stiffness(self._matrix.entries(placed, ties, centres))
+        nothing = np.zeros_like(self.reduced.dead_load)
+        equilibrium = sp.csr_array(matrix.compatibility.T)
+        program = replace(self.reduced, equilibrium_matrix=equilibrium, dead_load=nothing, live_load=nothing)
         joints = replace(self._joints, program=program, matrix=replace(matrix, program=program))
         offsets = np.vstack([placed.offsets, self._of_ties.offsets(ties)])
-        moved = self.ways[1].T @ (offsets.ravel() * (scaling.force / scaling.live))
-        return JointsAt(pose, placed, joints, moved.reshape(-1, self.components).T, ties, every)
+        moved = self.ways[1].T @ (offsets.ravel() * (self.full.scaling.force / self.full.scaling.live))
+        always = self._of_ties.prestress_load(ties, centres)
+        moved = moved.reshape(-1, self.components).T
+        return JointsAt(pose, placed, joints, moved, ties, (always, np.zeros_like(always)))
 
     def after(self, pose: Pose, u: FloatArray) -> Pose:
         """The pose after displacements of the program, (n_rows,)."""
@@ -241,7 +283,8 @@ class MovedJoints:
         """Joints of the numbered pattern."""
         program = replace(self.reduced, equilibrium_matrix=sp.csr_array(self._matrix.numbered.T))
         dilatancy = program.limits.dilatancy_by(self.structure.flow_rule)
-        return ElasticJoints.of(program, self.shares, self.ratio, dilatancy)
+        ratio = self.ratio * self.along
+        return ElasticJoints.of(program, self.shares, ratio, dilatancy, coupled=self.masses.coupled)
 
     def _stiffness(self, data: FloatArray) -> Stiffness:
         """Pattern of K with A of a pose: its entries where those of the numbered pattern are."""

@@ -13,7 +13,7 @@ from mbla.contacts.carried import Touching
 from mbla.contacts.contacts import Contacts
 from mbla.contacts.moved import MovedSearch
 from mbla.deck.sections.contacts import ContactsSection
-from mbla.model.model import LoadCase, Model
+from mbla.model.model import SHEAR_RATIO, LoadCase, Model
 from mbla.model.pose import Pose, moved_case, moved_model
 from mbla.model.ties.moved import moved_ties
 from mbla.model.ties.ties import Ties
@@ -34,6 +34,8 @@ class PushedStructure:
     areas     : (n_pairs,) m² of the solids that touch as built, by ``pairs``, (n_pairs,) numbers of their bodies
     stiffness : of joints, force per volume
     flow_rule : of the analysis
+    of_laws   : (n_laws, 2) stiffness of joints with a law of the model over ``stiffness``, and their ratio of shear
+                over normal stiffness over that of others
     """
 
     model: Model
@@ -44,6 +46,7 @@ class PushedStructure:
     areas: FloatArray
     stiffness: float
     flow_rule: str
+    of_laws: FloatArray
 
     @staticmethod
     def of(assembly: Assembly, section: ContactsSection, case: LoadCase, flow_rule: str) -> PushedStructure:
@@ -66,7 +69,15 @@ class PushedStructure:
             areas=areas,
             stiffness=weight / (float(areas.mean()) * SAG * size),
             flow_rule=flow_rule,
+            of_laws=np.ones((len(model.joints), 2)),
         )
+
+    @property
+    def as_laws(self) -> PushedStructure:
+        """The same with the stiffness that joint laws of the deck have, where they have one."""
+        laws = list(self.model.joints.values())
+        own = np.array([[law.normal_stiffness / self.stiffness, law.shear_ratio / SHEAR_RATIO] for law in laws])
+        return replace(self, of_laws=np.where(np.isfinite(own), own, 1.0).reshape(-1, 2))
 
     @property
     def size(self) -> float:
@@ -123,7 +134,8 @@ class PushedStructure:
         return new if before is None else before.renewed(new, pose)
 
     def areas_of(self, touching: Touching) -> FloatArray:
-        """Area that each contact point is as stiff as, (n_points,) m²: what two solids share as built, by their points.
+        """Area that each contact point is as stiff as, (n_points,) m²: what two solids share as built, by their points,
+        times the stiffness of its joint law over that of others.
 
         Two solids that meet only later are as stiff as others in the mean. Corners share it equally, points of a grid
         by their areas.
@@ -143,7 +155,17 @@ class PushedStructure:
             of_grid = np.bincount(of_point, grid, len(pair))[of_point] > 0.0
             whole = np.bincount(of_point, own, len(pair))[of_point]
             shares = np.where(of_grid & (whole > 0.0), own / np.maximum(whole, 1e-300), shares)
-        return np.asarray(of_pair[interface] * shares)
+        return np.asarray(of_pair[interface] * shares * self.of_laws[self.laws_of(contacts)[interface], 0])
+
+    def along(self, touching: Touching) -> FloatArray:
+        """Shear over normal stiffness of each contact point over that of joints without a ratio, (n_points,)."""
+        contacts = touching.contacts
+        return np.asarray(self.of_laws[self.laws_of(contacts)[contacts.interface_of_point], 1])
+
+    def laws_of(self, contacts: Contacts) -> IntArray:
+        """Rows of the joint laws of the model that interfaces have, (n_interfaces,)."""
+        laws = list(self.model.joints)
+        return np.array([laws.index(name) for name in contacts.joint_names], dtype=np.int64)[contacts.joints]
 
 
 FEWEST = 4

@@ -1,0 +1,83 @@
+"""Steps of a structure in time, one after the other: contacts renewed, impacts in small steps, what fails halved."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from mbla.solution.time_history.moving_bodies import MovingBodies
+from mbla.solution.time_history.renewed_contacts import renewed
+from mbla.solution.time_history.solved_velocities import BALANCED
+from mbla.solution.time_history.time_state import TimeState
+from mbla.solution.time_history.time_step import StepMade, free_flight, step_in_time
+
+PARTS, AHEAD, FAST = 8, 1.5, 2.0
+"""Small steps at an impact; steps within which a point closes there, and its speed over free fall in a step."""
+
+OPEN = 1e-6
+"""Gap over the size of the smaller block from which a point is open."""
+
+HALVINGS = 4
+"""Times that a step is halved where it is not solved."""
+
+
+@dataclass(frozen=True)
+class DeckStep:
+    """A step of the deck: the first of those that it was made of, where it ends, and the largest e of them."""
+
+    first: StepMade
+    after: TimeState
+    error: float
+
+
+@dataclass
+class March:
+    """Steps from a state on.
+
+    of_all : β that all joints have, s
+    """
+
+    bodies: MovingBodies
+    of_all: float
+
+    def steps(self, state: TimeState, h: float) -> Iterator[DeckStep]:
+        """Without end."""
+        while True:
+            made = self._deck_step(state, h)
+            yield made
+            state = made.after
+
+    def _deck_step(self, state: TimeState, h: float) -> DeckStep:
+        state = renewed(self.bodies, state, self.of_all)
+        parts = PARTS if self._impact(state, h) else 1
+        steps: list[StepMade] = []
+        for _ in range(parts):
+            more = self._solved(state, h / parts, 0)
+            steps, state = [*steps, *more], more[-1].after
+        counts = replace(state.counts, steps=state.counts.steps + 1, small=state.counts.small + len(steps) - 1)
+        return DeckStep(steps[0], replace(state, counts=counts), max(step.error for step in steps))
+
+    def _solved(self, state: TimeState, h: float, depth: int) -> list[StepMade]:
+        """A step, or the steps in its place where it is not solved; the smallest are taken as they are."""
+        state = renewed(self.bodies, state, self.of_all)
+        made = step_in_time(self.bodies, state, h)
+        if made.error < BALANCED:
+            return [made]
+        counts = made.after.counts
+        if depth == HALVINGS:
+            return [replace(made, after=replace(made.after, counts=replace(counts, missed=counts.missed + 1)))]
+        halved = replace(state.counts, halved=counts.halved + 1, factorisations=counts.factorisations)
+        first = self._solved(replace(state, counts=halved), 0.5 * h, depth + 1)
+        return [*first, *self._solved(first[-1].after, 0.5 * h, depth + 1)]
+
+    def _impact(self, state: TimeState, h: float) -> bool:
+        """Whether an open point closes soon, and fast."""
+        joints, fall = state.joints, self.bodies.gravity * h
+        if not joints.n_points:
+            return False
+        per_length, sizes = joints.normal_scale
+        rate = state.at.joints.velocities(joints.displacements(free_flight(self.bodies, state, h).free))[0] / per_length
+        gap = state.at.offsets[0] / per_length
+        return bool(np.any((gap > OPEN * sizes) & (gap + AHEAD * h * rate < 0.0) & (rate < -FAST * fall)))

@@ -1,0 +1,55 @@
+"""Contacts found anew while a structure moves in time: what joints remember goes on at the points that are there.
+
+Gaps are those of the poses. Shear goes from points that stay to themselves, from those that are gone to the nearest new
+one of the same two bodies, by their areas, and keeps its way in space.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from mbla.arrays import FloatArray
+from mbla.solution.law.elastic_joints import within
+from mbla.solution.pushover.inherited import sources, turned
+from mbla.solution.pushover.pose.moved_joints import History, MovedJoints
+from mbla.solution.pushover.renewal import is_stale
+from mbla.solution.time_history.dashpots import dashpots_of
+from mbla.solution.time_history.moving_bodies import MovingBodies
+from mbla.solution.time_history.time_state import TimeState
+
+
+def renewed(bodies: MovingBodies, state: TimeState, of_all: float) -> TimeState:
+    """The state with contacts found anew where something has moved since they were, or a tie has broken.
+
+    of_all : β that all joints have, s
+    """
+    joints, structure = state.joints, bodies.structure
+    broken = state.ties.broken(structure.model.ties)
+    gone = len(joints.ties) > 0 and bool(broken[joints.ties].any())
+    if not gone and not is_stale(joints, state.pose, state.at.placed):
+        return state
+    history = History(np.vstack([state.free[None], state.shear]), state.at.offsets[1:])
+    there = MovedJoints.at_pose(structure, state.pose, joints.fallen, broken, joints.ratio, (joints, history))
+    counts = replace(state.counts, searches=state.counts.searches + 1)
+    state = replace(state, joints=there, counts=counts, **_remembered(state, there, history.values))
+    return replace(state, dashpots=dashpots_of(bodies, there, state.at, of_all))
+
+
+def _remembered(state: TimeState, there: MovedJoints, values: FloatArray) -> dict[str, FloatArray]:
+    """What joints there remember, from values of those before, (components, n_points)."""
+    old, at = state.joints, there.unloaded(state.pose)
+    n_before, n_now = len(old.areas), len(there.areas)
+    source = sources(old.touching, state.at.placed, there.touching, at.placed)
+    takes = source >= 0
+    new = there.touching.before < 0
+    forces = old.forces(values)
+    found = np.zeros((len(there.contacts.points), 3))
+    share = np.where(new & takes, there.areas / old.areas[source], 1.0)
+    found[:n_now][takes] = turned(state.at.placed, at.placed, forces[:n_before], takes, source) * share[takes, None]
+    row = {tie: number for number, tie in enumerate(old.ties.tolist())}
+    found[n_now:] = forces[n_before + np.array([row[tie] for tie in there.ties.tolist()], dtype=np.int64)]
+    own = there.values(found)
+    normal = own[0] - at.joints.normal * there.length * at.offsets[0]
+    return {"free": own[0], "shear": within(own[1:], at.joints.limit(np.maximum(normal, 0.0)))}

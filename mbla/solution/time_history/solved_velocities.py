@@ -1,0 +1,148 @@
+"""The equations of one step of time solved: by Newton's method on the law as it is, else by products of the law.
+
+Joints that stay as they are need one or two iterations of Newton's method; where many open, close or slide at once it
+comes to nothing, and a primal–dual method goes to the solution from the best motion seen, or from that without joints.
+What counts is the balance of the forces of the law, as a velocity over that of free fall in the step::
+
+    e = √(Fᵀ M⁻¹ F / m) / (g₀ h),   m the least mass of a body
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from mbla.arrays import FloatArray
+from mbla.solution.law.elastic_joints import Memory
+from mbla.solution.law.exact_law import forces_by_law
+from mbla.solution.law.joint_equations import JointStep, residual_of
+from mbla.solution.law.joint_step import aimed_direction, length_of
+from mbla.solution.law.masses import MassPattern
+from mbla.solution.law.return_map import JointForces, joint_stiffness
+from mbla.solution.pushover.pose.step_states import on_central_path
+
+BALANCED, WELL = 1e-3, 1e-6
+"""e of a step that is solved, and with which Newton's method makes no iteration at all."""
+
+NEWTON, PRODUCTS = 6, 25
+"""Iterations of each method at most."""
+
+NEAR, FAR = 1e-2, 1.0
+"""Products of the law that the primal–dual method begins with, from the best motion seen and from that without joints,
+over mean weight times free fall in the step."""
+
+
+@dataclass(frozen=True)
+class Solved:
+    """The best motion found.
+
+    u      : (n_rows,) displacements in the step
+    forces : of the joints by their law
+    error  : e
+    spent  : factorisations
+    """
+
+    u: FloatArray
+    forces: JointForces
+    error: float
+    spent: int
+
+
+@dataclass
+class StepEquations:
+    """Of one step.
+
+    step     : of the joint law
+    pattern  : of its masses, and inverses of M/h² by its sets
+    unit     : m (g₀ h)² of the least mass, in units of the program: h² F·M⁻¹F over that is e²
+    product  : mean weight times free fall in the step, in units of the program
+    spent    : factorisations so far
+    """
+
+    step: JointStep
+    pattern: MassPattern
+    inverses: list[FloatArray]
+    unit: float
+    product: float
+    spent: int = 0
+
+    def solved(self, begin: FloatArray) -> Solved:
+        """From displacements to begin with, (n_rows,)."""
+        best = self._newton(begin)
+        if best.error >= BALANCED:
+            near = best.u if np.isfinite(best.error) else begin
+            for start, product in ((near, NEAR), (self.alone, FAR)):
+                found = self._products(start, product * self.product)
+                best = found if found.error < best.error else best
+                if best.error < BALANCED:
+                    break
+        return replace(best, spent=self.spent)
+
+    @property
+    def alone(self) -> FloatArray:
+        """u_f, displacements without joints, (n_rows,)."""
+        masses = self.step.masses
+        assert masses is not None
+        return self.pattern.solved(self.inverses, masses.free)
+
+    def _measured(self, u: FloatArray) -> tuple[Solved, FloatArray]:
+        """What a motion leaves of the balance, (n_rows,)."""
+        forces = forces_by_law(self.step, u)
+        masses = self.step.masses
+        assert masses is not None
+        left = self.step.joints.carried(forces.normal, forces.shear) - masses.resistance(u)
+        square = float(left @ self.pattern.solved(self.inverses, left)) / self.unit
+        error = float(np.sqrt(square)) if 0.0 <= square < np.inf else (0.0 if square < 0.0 else np.inf)
+        return Solved(u, forces, error, self.spent), left
+
+    def _newton(self, u: FloatArray) -> Solved:
+        best: Solved | None = None
+        masses = self.step.masses
+        assert masses is not None
+        for number in range(NEWTON + 1):
+            found, left = self._measured(u)
+            best = found if best is None or found.error < best.error else best
+            done = found.error < (BALANCED if number else WELL)
+            if done or number == NEWTON or not np.isfinite(found.error):
+                break
+            tangents = joint_stiffness(self.step.joints, found.forces, self.step.length)
+            none = np.zeros_like(u)
+            solve = self.step.joints.matrix.factorized(tangents, none, fixed_load=True, further=[masses.entries])
+            self.spent += 1
+            if solve is None:
+                break
+            u = u + solve.unrefined(np.append(-left, 0.0))[:-1]
+        assert best is not None
+        return best
+
+    def _products(self, begin: FloatArray, sigma: float) -> Solved:
+        """The best that ever smaller products come to from displacements, (n_rows,)."""
+        rest = self._from(begin)
+        state = on_central_path(rest, sigma, 0.0)
+        best, _ = self._measured(begin)
+        for _ in range(PRODUCTS):
+            residual = residual_of(rest, state)
+            found = aimed_direction(rest, state, residual)
+            self.spent += 1
+            if found is None or found[1] < LEAST:
+                break
+            state = state.plus(found[0], length_of(found[1]))
+            there, _ = self._measured(begin + state.u)
+            best = there if there.error < best.error else best
+            if best.error < BALANCED:
+                break
+        return best
+
+    def _from(self, u: FloatArray) -> JointStep:
+        """The rest of the step from displacements on."""
+        step, masses = self.step, self.step.masses
+        assert masses is not None
+        moved = step.joints.velocities(u)
+        normal = step.memory.normal - moved[0] / step.normal_compliance
+        memory = Memory(normal, step.memory.shear - moved[1:] / step.shear_compliance)
+        return replace(step, memory=memory, masses=replace(masses, free=-masses.resistance(u)))
+
+
+LEAST = 1e-8
+"""Reach of a direction that leads nowhere."""
