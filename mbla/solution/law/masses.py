@@ -1,9 +1,9 @@
 """Masses in an implicit step: what blocks resist to a change of their motion.
 
 In a step of time h, whose unknown u are displacements, velocities v_f that the blocks would have without joints lead to
-u_f = h v_f, and the balance of the joints has one more term::
+u_f = h v_f, and the balance of the joints has one more term, h̄ the time for which their forces act::
 
-    A x − M (u − u_f)/h² = 0
+    A x − M (u − u_f)/(h h̄) = 0
 
 In units of the program, whose rows S take up those of the blocks (:mod:`mbla.program.program`), M becomes Sᵀ M S.
 """
@@ -25,8 +25,8 @@ from mbla.solution.linear_algebra.stiffness import Entries, Stiffness
 class Masses:
     """Of a step.
 
-    matrix  : M/h² by rows, (n_rows, n_rows)
-    free    : (n_rows,) M u_f/h²
+    matrix  : M/(h h̄) by rows, (n_rows, n_rows)
+    free    : (n_rows,) M u_f/(h h̄)
     entries : of the matrix among those of the stiffness
     """
 
@@ -35,7 +35,7 @@ class Masses:
     entries: Entries
 
     def resistance(self, u: FloatArray) -> FloatArray:
-        """M (u − u_f)/h², (n_rows,)."""
+        """M (u − u_f)/(h h̄), (n_rows,)."""
         return np.asarray(self.matrix @ u - self.free)
 
 

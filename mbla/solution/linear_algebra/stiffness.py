@@ -255,7 +255,9 @@ def _pattern(n: int, sets: list[tuple[IntArray, FloatArray]], coupled: sp.coo_ar
     rows = [np.repeat(rows, rows.shape[1], axis=1).ravel() for rows, _ in sets]
     columns = [np.tile(rows, (1, rows.shape[1])).ravel() for rows, _ in sets]
     if coupled is not None:
-        rows, columns = [*rows, coupled.coords[0]], [*columns, coupled.coords[1]]
+        rows, columns = (
+            [*own, each.astype(np.int64)] for own, each in zip((rows, columns), coupled.coords, strict=True)
+        )
     row, column = np.concatenate([*rows, np.arange(n)]), np.concatenate([*columns, np.arange(n)])
     keys = distinct(row * n + column)
     return sp.coo_array((np.ones(len(keys)), (keys // n, keys % n)), shape=(n, n))

@@ -19,8 +19,8 @@ class RecordedHistories:
     velocities    : (m, n_points, 3) relative to the base
     accelerations : (m, n_points, 3) absolute: of the base and relative
     base          : (m, 3, 3) displacement, velocity and acceleration of the base
-    openings, slips : (m, n_interfaces) m, the largest of the points of an interface (overlap is a negative opening)
-    forces        : (m, n_interfaces, 3) normal force and shear along its two tangents, sums over its points
+    openings, slips : (m, n_interfaces) m, the largest between corners of the two bodies that touched as built
+    forces        : (m, n_interfaces, 3) sum of the forces on body b at the points of both bodies, along x, y, z
     """
 
     times: FloatArray
@@ -42,8 +42,8 @@ class Peaks:
     rotations     : (n_blocks,) rad, greatest
     residuals     : (n_blocks,) m, displacement at the end; mean over the last period of motion while it still moves
     wanders       : (n_blocks,) m, by how much it still varied about that: the uncertainty of the residual
-    openings, slips : (n_interfaces,) m of the interfaces of the assembly
-    falling       : (n_blocks,) s when a block has fallen by half of its height; nan of those that have not
+    openings, slips : (n_interfaces,) m of the interfaces of the assembly, between corners that touched as built
+    falling       : (n_blocks,) s when a block has fallen: by half of its height, or tilted by 60 degrees; else nan
     """
 
     displacements: FloatArray
@@ -59,6 +59,16 @@ class Peaks:
     def block(self) -> int:
         """The block that is displaced most."""
         return int(self.displacements.argmax())
+
+    @property
+    def peak(self) -> float:
+        """Its displacement, m."""
+        return float(self.displacements.max(initial=0.0))
+
+    @property
+    def peak_time(self) -> float:
+        """When, s."""
+        return float(self.times[self.block])
 
     @property
     def first_to_fall(self) -> int:

@@ -68,6 +68,13 @@ class MovingBodies:
         """Dead loads that keep their direction, without moments, (n_solids, 3): they have a potential."""
         return self.structure.solids.loads(self.structure.case.dead_load - self.history.dead_following)[:, :3]
 
+    @property
+    def down(self) -> FloatArray:
+        """Direction of the dead load, (3,); −z without any."""
+        total = self.constant.sum(axis=0)
+        size = float(np.linalg.norm(total))
+        return np.asarray(total / size if size > 0.0 else np.array([0.0, 0.0, -1.0]))
+
     @cached_property
     def turns(self) -> bool:
         """Whether dead loads change with the pose: they have levers about the mass centres, or turn."""

@@ -33,12 +33,13 @@ def renewed(bodies: MovingBodies, state: TimeState, of_all: float) -> TimeState:
     history = History(np.vstack([state.free[None], state.shear]), state.at.offsets[1:])
     there = MovedJoints.at_pose(structure, state.pose, joints.fallen, broken, joints.ratio, (joints, history))
     counts = replace(state.counts, searches=state.counts.searches + 1)
-    state = replace(state, joints=there, counts=counts, **_remembered(state, there, history.values))
+    free, shear = _remembered(state, there, history.values)
+    state = replace(state, joints=there, counts=counts, free=free, shear=shear)
     return replace(state, dashpots=dashpots_of(bodies, there, state.at, of_all))
 
 
-def _remembered(state: TimeState, there: MovedJoints, values: FloatArray) -> dict[str, FloatArray]:
-    """What joints there remember, from values of those before, (components, n_points)."""
+def _remembered(state: TimeState, there: MovedJoints, values: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Normal force at no gap, and shear, of joints there, from values of those before, (components, n_points)."""
     old, at = state.joints, there.unloaded(state.pose)
     n_before, n_now = len(old.areas), len(there.areas)
     source = sources(old.touching, state.at.placed, there.touching, at.placed)
@@ -52,4 +53,4 @@ def _remembered(state: TimeState, there: MovedJoints, values: FloatArray) -> dic
     found[n_now:] = forces[n_before + np.array([row[tie] for tie in there.ties.tolist()], dtype=np.int64)]
     own = there.values(found)
     normal = own[0] - at.joints.normal * there.length * at.offsets[0]
-    return {"free": own[0], "shear": within(own[1:], at.joints.limit(np.maximum(normal, 0.0)))}
+    return own[0], within(own[1:], at.joints.limit(np.maximum(normal, 0.0)))

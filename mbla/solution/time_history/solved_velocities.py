@@ -54,8 +54,8 @@ class StepEquations:
     """Of one step.
 
     step     : of the joint law
-    pattern  : of its masses, and inverses of M/h² by its sets
-    unit     : m (g₀ h)² of the least mass, in units of the program: h² F·M⁻¹F over that is e²
+    pattern  : of its masses, and inverses of M/(h h̄) by its sets
+    unit     : m (g₀ h)² h/h̄ of the least mass, in units of the program: h h̄ F·M⁻¹F over that is e²
     product  : mean weight times free fall in the step, in units of the program
     spent    : factorisations so far
     """

@@ -13,7 +13,7 @@ class HistoryEnd(StrEnum):
 
     NONE = ""
     DURATION = "the duration asked for is reached"
-    COLLAPSE = "a block has fallen by half of its height"
+    COLLAPSE = "a block has fallen"
     DISPLACED = "the displacement asked for is reached"
     AT_REST = "the structure has come to rest"
     NOT_STANDING = "the structure does not stand under its dead load"
@@ -25,12 +25,11 @@ class HistoryEnd(StrEnum):
 class StepRows:
     """Steps of a time history, (n + 1,) each; row 0 is the structure at rest. Energies in J since then.
 
-    Positions are those at the times given, velocities and what follows from them those half a step earlier. The rows
-    fulfil::
+    Energies are those half a step before the times given, with positions there too, and fulfil::
 
-        kinetic + potential + contacts + friction + ties = base + forces + turning
+        kinetic + potential + contacts + friction + ties = base + forces + numerical
 
-    times      : s
+    times      : s, at the end of the steps
     kinetic    : of all bodies, in the frame of the base
     potential  : gained by the dead load
     elastic    : stored in joints and ties (part of what contacts, friction and ties took)
@@ -39,7 +38,7 @@ class StepRows:
     ties       : taken by ties: stored and dissipated
     base       : work of the motion of the base
     forces     : work of forces over time and of dead loads that turn with their blocks
-    turning    : numerical, of bodies that turn about changing axes
+    numerical  : of bodies that turn about changing axes, and of steps that become longer or shorter
     residuals  : largest velocity that a step leaves out of balance, over that of free fall in the step
     factorisations, small_steps : so far; steps that were made in the place of those of the deck: halved, and at impacts
     halved, missed : steps so far that were halved, and smallest ones that still did not converge
@@ -55,7 +54,7 @@ class StepRows:
     ties: FloatArray
     base: FloatArray
     forces: FloatArray
-    turning: FloatArray
+    numerical: FloatArray
     residuals: FloatArray
     factorisations: IntArray
     small_steps: IntArray

@@ -3,12 +3,13 @@
 Positions are those of the beginning and the end of a step, velocities hold in between. Frames, levers and gaps are
 those of the beginning, inertia that of half a step ahead::
 
-    M (v − v_f) = Gᵀ P,   M v_f = p + (h + h₋)/2 f − M ΔV_g,   ΔV_g = V_g(t + h/2) − V_g(t − h₋/2)
+    M (v − v_f) = h̄ Gᵀ x,   M v_f = p + h̄ f − M ΔV_g,   h̄ = (h + h₋)/2,   ΔV_g = V_g(t + h/2) − V_g(t − h₋/2)
     c ← c + h v,   R ← exp(h [ω]×) R,   L = J ω
 
-P = h x are the impulses of the joints (:mod:`mbla.solution.time_history.joints_in_step`). The velocities that count are
-those of the impulses, so that momentum is kept whatever the equations are solved to (Moreau 1988,
-doi:10.1007/978-3-7091-2624-0_1, for the velocity as unknown).
+x are the forces of the joints (:mod:`mbla.solution.time_history.joints_in_step`). The velocities that count are those
+of their impulses, so that momentum is kept whatever the equations are solved to (Moreau 1988,
+doi:10.1007/978-3-7091-2624-0_1, for the velocity as unknown). h₋ is the step before, 0 at first: with h̄ in both a
+structure at rest stays so when steps change their length.
 """
 
 from __future__ import annotations
@@ -90,18 +91,19 @@ def step_in_time(bodies: MovingBodies, state: TimeState, h: float) -> StepMade:
     flight = free_flight(bodies, state, h)
     in_step = JointsInStep.of(state, h)
     scaling, free = joints.full.scaling, joints.full.facts.free
-    values = joints.masses.entries(flight.matrices[free]) / h**2
+    between = h_mean(state, h)
+    values = joints.masses.entries(flight.matrices[free]) / (h * between)
     pattern = joints.masses.pattern
     matrix = pattern.filled(values)
     momentum = np.einsum("nij,nj->ni", flight.matrices[free], flight.free[free])
-    masses = Masses(matrix, joints.masses.load(momentum) / h, Entries(joints.mass_places, values))
+    masses = Masses(matrix, joints.masses.load(momentum) / between, Entries(joints.mass_places, values))
     inverses = pattern.inverses(values)
     fall = bodies.gravity * h
+    unit = fall**2 / scaling.live
     least = float(bodies.masses[bodies.free].min()) if len(bodies.free) else 1.0
     mean = float(bodies.masses[bodies.free].mean())
-    equations = StepEquations(
-        in_step.step(masses), pattern, inverses, least * fall**2 / scaling.live, mean * fall**2 / scaling.live
-    )
+    step = in_step.step(masses)
+    equations = StepEquations(step, pattern, inverses, least * unit * h / between, mean * unit)
     found = equations.solved(joints.displacements(h * state.velocities))
     carried = at.joints.carried(found.forces.normal, found.forces.shear)
     u = pattern.solved(inverses, masses.free + carried)
@@ -150,7 +152,7 @@ def _energies(
 ) -> Energies:
     """Of a step: work of everything on the mean of the velocities before and after it, which adds up exactly."""
     moved, h, live = state.joints, joints.h, state.joints.full.scaling.live
-    d = joints.at.joints.velocities(moved.displacements(h * mean))
+    d = joints.at.joints.velocities(moved.displacements(h_mean(state, h) * mean))
     across, along = -forces.normal * d[0] * live, -(forces.shear * d[1:]).sum(axis=0) * live
     ties = moved.is_tie
     momenta = np.einsum("nij,nj->ni", flight.matrices, velocities)

@@ -1,0 +1,244 @@
+"""A structure is followed in time: from rest under its dead load to its end, and once more with half of the step."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+from typing import TypeAlias
+
+import numpy as np
+
+from mbla.assembly.assembly import Assembly
+from mbla.contacts.contacts import Contacts
+from mbla.deck.sections.contacts import ContactsSection
+from mbla.errors import Message
+from mbla.model.model import LoadCase
+from mbla.program.build import build_program
+from mbla.questions.load_factor import LOAD_FACTOR
+from mbla.solution.pushover.place import PushedPlace
+from mbla.solution.pushover.rest import at_rest
+from mbla.solution.pushover.way import RATIO
+from mbla.solution.settings import SolverSettings
+from mbla.solution.solution import StandingResult
+from mbla.solution.standing.standing import assess_dead_load, worst_standing
+from mbla.solution.time_history.dashpots import dashpots_of, first_period
+from mbla.solution.time_history.frame_record import FrameKeeper
+from mbla.solution.time_history.greatest import Greatest
+from mbla.solution.time_history.history import HalfStep, TimeHistoryResult
+from mbla.solution.time_history.instants import Instants
+from mbla.solution.time_history.march import DeckStep, March
+from mbla.solution.time_history.moving_bodies import MovingBodies
+from mbla.solution.time_history.remarks import history_remarks
+from mbla.solution.time_history.row_keeper import RowKeeper
+from mbla.solution.time_history.step_rows import HistoryEnd
+from mbla.solution.time_history.time_state import TimeState
+
+WINDOW = 0.1
+"""Share of the duration, at its end, over which the residual displacement is taken."""
+
+STILL = 1e-10
+"""Kinetic energy over total weight times mean size of blocks, with which the structure is at rest."""
+
+
+@dataclass(frozen=True)
+class TimeProgress:
+    """How far a time history has come; of a step of the deck.
+
+    balance : energy that is not accounted for, over the greatest of the energies so far
+    """
+
+    time: float
+    duration: float
+    step: int
+    factorisations: int
+    residual: float
+    balance: float
+    pressing: int
+    halved: int
+    missed: int
+    seconds: float
+
+
+Followed: TypeAlias = tuple[TimeHistoryResult, tuple[Message, ...]]
+Watch: TypeAlias = Callable[[TimeProgress], None]
+
+
+def follow(
+    assembly: Assembly,
+    section: ContactsSection,
+    case: LoadCase,
+    settings: SolverSettings,
+    watch: Watch = lambda progress: None,
+    tell: Callable[[Callable[[], Followed]], None] = lambda so_far: None,
+) -> tuple[TimeHistoryResult, tuple[Message, ...], StandingResult | None]:
+    """The time history of a load case, what a reader of it must know, and why it does not stand where it does not.
+
+    watch : told of every step of the deck
+    tell  : told how to make the same with the steps that are done by then
+    """
+    started = time.perf_counter()
+    bodies = MovingBodies.of(assembly, section, case, settings.analysis.flow_rule)
+    place, _ = at_rest(bodies.structure, RATIO)
+    if place is None:
+        return TimeHistoryResult(HistoryEnd.NOT_STANDING), (), _standing(assembly, case, settings)
+    way = TimeWay.of(bodies, assembly.contacts, place, settings.deadline, watch)
+
+    def so_far(end: HistoryEnd) -> Followed:
+        result = replace(way.result(end), seconds=time.perf_counter() - started)
+        return result, history_remarks(bodies.history, bodies.structure, result)
+
+    tell(lambda: so_far(HistoryEnd.STOPPED))
+    end = way.followed()
+    found, remarks = so_far(end)
+    if bodies.history.check and end is not HistoryEnd.LATE:
+        found = replace(found, half=_half_step(bodies, assembly.contacts, place, settings, found))
+        remarks = history_remarks(bodies.history, bodies.structure, found)
+    return replace(found, seconds=time.perf_counter() - started), remarks, None
+
+
+@dataclass
+class TimeWay:
+    """Steps of a time history, and what is kept of them."""
+
+    march: March
+    begin: TimeState
+    period: float
+    sag: float
+    rows: RowKeeper
+    frames: FrameKeeper
+    instants: Instants
+    greatest: Greatest
+    deadline: float | None
+    watch: Watch
+    started: float = field(default_factory=time.perf_counter)
+
+    @staticmethod
+    def of(
+        bodies: MovingBodies, contacts: Contacts, place: PushedPlace, deadline: float | None, watch: Watch
+    ) -> TimeWay:
+        """From rest."""
+        joints, at, history = place.joints, place.joints.unloaded(place.pose), bodies.history
+        period = first_period(bodies, joints, at, (at.offsets[0] < 0.0).astype(np.float64))
+        of_all = history.damping * period / np.pi if history.damping else 0.0
+        state = TimeState.at_rest(place, dashpots_of(bodies, joints, at, of_all))
+        rest = bodies.structure.blocks_at(place.pose)
+        window = round(WINDOW * history.duration / history.step)
+        blocks = bodies.structure.model.blocks
+        sag = float(np.linalg.norm(rest.shift, axis=1).max(initial=0.0))
+        return TimeWay(
+            March(bodies, of_all),
+            state,
+            period,
+            sag,
+            RowKeeper.of(state),
+            FrameKeeper(bodies),
+            Instants.of(bodies, contacts, rest),
+            Greatest.of(blocks, contacts, rest, bodies.down, window),
+            deadline,
+            watch,
+        )
+
+    def followed(self) -> HistoryEnd:
+        """Why it ends; every step is kept as soon as it is made."""
+        bodies, history = self.march.bodies, self.march.bodies.history
+        before = self.begin
+        there = bodies.structure.blocks_at(before.pose)
+        self.instants.add(before, there, None, None)
+        for step in self.march.steps(before, history.step):
+            state = step.after
+            there = bodies.structure.blocks_at(state.pose)
+            if before.time >= len(self.frames.frames) * history.every - 1e-6 * history.step:
+                self.frames.add(step.first)
+            self.rows.add(step)
+            self.instants.add(state, there, before, step)
+            self.greatest.add(there, state.time)
+            self.watch(self._progress(state, step))
+            end = self._end(state)
+            if end is not HistoryEnd.NONE:
+                return end
+            before = state
+        raise AssertionError("steps go on without end")
+
+    def result(self, end: HistoryEnd) -> TimeHistoryResult:
+        """With the steps so far."""
+        bodies = self.march.bodies
+        history = bodies.history
+        k = bodies.structure.stiffness * float(bodies.structure.of_laws[:, 0].mean())
+        shear = k * RATIO * float(bodies.structure.of_laws[:, 1].mean())
+        if not self.frames.frames:
+            return TimeHistoryResult(end, self.sag, (k, shear), self.period)
+        return TimeHistoryResult(
+            end=end,
+            sag=self.sag,
+            stiffness=(k, shear),
+            period=self.period,
+            damping=history.damping + np.pi * history.step / self.period,
+            rows=self.rows.result(),
+            frames=self.frames.result(),
+            histories=self.instants.result(),
+            peaks=self.greatest.result(),
+            searches=self.rows.searches,
+        )
+
+    def _end(self, state: TimeState) -> HistoryEnd:
+        """Why it ends at a state; none where it goes on."""
+        history = self.march.bodies.history
+        if not np.isnan(self.greatest.falling).all():
+            return HistoryEnd.COLLAPSE
+        if float(self.greatest.displacements.max(initial=0.0)) >= history.stop_displacement:
+            return HistoryEnd.DISPLACED
+        if state.time >= history.duration - 1e-6 * history.step:
+            return HistoryEnd.DURATION
+        if history.stop_at_rest and state.time > self.loaded_until and self._rests(state):
+            return HistoryEnd.AT_REST
+        late = self.deadline is not None and time.monotonic() > self.deadline
+        return HistoryEnd.LATE if late else HistoryEnd.NONE
+
+    @property
+    def loaded_until(self) -> float:
+        """When motion of the base and forces over time are over, s."""
+        history = self.march.bodies.history
+        signals = [each.signal for each in history.motions] + [each.signal for each in history.forces]
+        return max((float(signal.times[-1]) for signal in signals), default=0.0)
+
+    def _rests(self, state: TimeState) -> bool:
+        bodies = self.march.bodies
+        size = bodies.structure.size * bodies.gravity * float(bodies.masses.sum())
+        return state.energies.kinetic < STILL * size
+
+    def _progress(self, state: TimeState, step: DeckStep) -> TimeProgress:
+        counts = state.counts
+        return TimeProgress(
+            time=state.time,
+            duration=self.march.bodies.history.duration,
+            step=counts.steps,
+            factorisations=counts.factorisations,
+            residual=step.error,
+            balance=self.rows.balance,
+            pressing=int((step.first.forces.normal > 0.0).sum()),
+            halved=counts.halved,
+            missed=counts.missed,
+            seconds=time.perf_counter() - self.started,
+        )
+
+
+def _half_step(
+    bodies: MovingBodies, contacts: Contacts, place: PushedPlace, settings: SolverSettings, found: TimeHistoryResult
+) -> HalfStep | None:
+    """The same with half of the step; None where the time limit cut it off."""
+    halved = replace(bodies, history=replace(bodies.history, step=0.5 * bodies.history.step))
+    way = TimeWay.of(halved, contacts, place, settings.deadline, lambda progress: None)
+    end = way.followed()
+    if end is HistoryEnd.LATE:
+        return None
+    other = way.result(end).peaks
+    assert other is not None
+    return HalfStep(other.peak, other.peak_time, float(other.residuals.max(initial=0.0)), end)
+
+
+def _standing(assembly: Assembly, case: LoadCase, settings: SolverSettings) -> StandingResult:
+    """Why the structure does not stand under its dead load."""
+    alone = replace(case, live_load=case.dead_load, question=LOAD_FACTOR, time_history=None)
+    program = build_program(assembly, alone, settings.analysis)
+    return worst_standing([assess_dead_load(part, carried=None) for part in program.reduced.parts])

@@ -1,0 +1,88 @@
+"""Greatest values of a structure in time, from every step of the deck, and where it comes to stay."""
+
+from __future__ import annotations
+
+from collections import deque
+from dataclasses import dataclass
+
+import numpy as np
+
+from mbla.arrays import FloatArray
+from mbla.contacts.contacts import Contacts
+from mbla.model.pose import Pose
+from mbla.model.solids.blocks import Blocks
+from mbla.solution.time_history.as_built import CornersAsBuilt
+from mbla.solution.time_history.history import Peaks
+
+FALLEN, TILTED = 0.5, float(np.cos(np.radians(60.0)))
+"""Of the height of a block, by which it is lower when it has fallen; cosine of the tilt from which it has, too: a block
+that turns over on the ground is lower by less."""
+
+
+@dataclass
+class Greatest:
+    """So far.
+
+    rest    : pose of the blocks at rest
+    down    : (3,) direction of the dead load
+    corners : of all interfaces
+    last    : shifts of the last poses, over which the residual displacement is taken
+    """
+
+    blocks: Blocks
+    rest: Pose
+    down: FloatArray
+    corners: CornersAsBuilt
+    last: deque[FloatArray]
+    displacements: FloatArray
+    times: FloatArray
+    rotations: FloatArray
+    openings: FloatArray
+    slips: FloatArray
+    falling: FloatArray
+
+    @staticmethod
+    def of(blocks: Blocks, contacts: Contacts, rest: Pose, down: FloatArray, window: int) -> Greatest:
+        """Before the first step; the residual displacement is taken over as many poses as ``window``."""
+        n, corners = len(blocks), CornersAsBuilt.of(blocks, contacts)
+        opening, slip = (np.maximum(each, 0.0) for each in corners.apart(rest))
+        last: deque[FloatArray] = deque([rest.shift], maxlen=max(window, 1))
+        moved, times, turned = np.zeros((3, n))
+        return Greatest(blocks, rest, down, corners, last, moved, times, turned, opening, slip, np.full(n, np.nan))
+
+    def add(self, there: Pose, time: float) -> None:
+        """A pose of the blocks."""
+        moved = there.shift - self.rest.shift
+        size = np.linalg.norm(moved, axis=1)
+        more = size > self.displacements
+        self.displacements[more], self.times[more] = size[more], time
+        turn = np.einsum("nij,nij->n", there.rotation, self.rest.rotation)
+        self.rotations = np.maximum(self.rotations, np.arccos(np.clip(0.5 * (turn - 1.0), -1.0, 1.0)))
+        opening, slip = self.corners.apart(there)
+        self.openings, self.slips = np.maximum(self.openings, opening), np.maximum(self.slips, slip)
+        upright = (there.rotation @ (self.rest.rotation.transpose(0, 2, 1) @ self.down)) @ self.down
+        fallen = (moved @ self.down > FALLEN * self.heights) | (upright < TILTED)
+        self.falling[fallen & np.isnan(self.falling)] = time
+        self.last.append(there.shift)
+
+    @property
+    def heights(self) -> FloatArray:
+        """Of the blocks along the dead load, (n_blocks,)."""
+        along, first = self.blocks.vertices @ self.down, self.blocks.vertex_start[:-1]
+        return np.asarray(np.maximum.reduceat(along, first) - np.minimum.reduceat(along, first))
+
+    def result(self) -> Peaks:
+        """With the residual displacements."""
+        shifts = np.stack(self.last) - self.rest.shift
+        mean = shifts.mean(axis=0)
+        wanders = np.linalg.norm(shifts - mean, axis=2).max(axis=0)
+        return Peaks(
+            displacements=self.displacements.copy(),
+            times=self.times.copy(),
+            rotations=self.rotations,
+            residuals=np.linalg.norm(mean, axis=1),
+            wanders=wanders,
+            openings=self.openings,
+            slips=self.slips,
+            falling=self.falling.copy(),
+        )

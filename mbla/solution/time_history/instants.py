@@ -1,0 +1,113 @@
+"""Histories of the points and interfaces that a deck names, one instant for each of its steps."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+
+from mbla.arrays import FloatArray, IntArray
+from mbla.contacts.contacts import Contacts
+from mbla.model.pose import Pose
+from mbla.solution.time_history.as_built import CornersAsBuilt
+from mbla.solution.time_history.history import RecordedHistories
+from mbla.solution.time_history.march import DeckStep
+from mbla.solution.time_history.moving_bodies import MovingBodies
+from mbla.solution.time_history.time_state import TimeState
+
+Instant = tuple[FloatArray, ...]
+
+
+@dataclass
+class Instants:
+    """Of a structure that begins at rest.
+
+    rest     : pose of the blocks there
+    corners  : of the interfaces between the bodies that are named, one after the other
+    of_named : (n_corner interfaces,) number of the pair that each is of
+    """
+
+    bodies: MovingBodies
+    rest: Pose
+    corners: CornersAsBuilt
+    of_named: IntArray
+    kept: list[Instant] = field(default_factory=list)
+
+    @staticmethod
+    def of(bodies: MovingBodies, contacts: Contacts, rest: Pose) -> Instants:
+        """For interfaces of an assembly."""
+        named = [np.sort(each.bodies) for each in bodies.history.interfaces]
+        pairs = np.sort(contacts.bodies, axis=1)
+        own = [np.flatnonzero((pairs == each).all(axis=1)) for each in named]
+        rows = np.concatenate([*own, np.zeros(0, dtype=np.int64)]).astype(np.int64)
+        of_named = np.repeat(np.arange(len(own)), [len(each) for each in own]).astype(np.int64)
+        corners = CornersAsBuilt.of(bodies.structure.model.blocks, contacts, rows)
+        return Instants(bodies, rest, corners, of_named)
+
+    def add(self, state: TimeState, there: Pose, before: TimeState | None, step: DeckStep | None) -> None:
+        """The instant at which a state is; nothing before it at the first."""
+        blocks, history, time = self.bodies.structure.model.blocks, self.bodies.history, state.time
+        moved = there.displacements(blocks, self._owners, self._points)
+        moved -= self.rest.displacements(blocks, self._owners, self._points)
+        speed = self._speeds(state, there)
+        base = [each(time) for each in (history.base_displacement, history.base_velocity, history.base_acceleration)]
+        acceleration = np.zeros_like(speed)
+        if before is not None:
+            between = 0.5 * (before.length + state.length)
+            acceleration = (speed - self._speeds(before, there)) / between
+        forces = np.zeros((len(history.interfaces), 3)) if step is None else self._forces(step)
+        apart = [self._largest(each) for each in self.corners.apart(there)]
+        at = np.array([time])
+        self.kept.append((at, moved, speed, acceleration + base[2], np.stack(base), *apart, forces))
+
+    def result(self) -> RecordedHistories:
+        """All instants."""
+        columns = [np.stack(each) for each in zip(*self.kept, strict=True)]
+        return RecordedHistories(columns[0][:, 0], *columns[1:])
+
+    @cached_property
+    def _owners(self) -> IntArray:
+        return np.array([point.block for point in self.bodies.history.points], dtype=np.int64)
+
+    @cached_property
+    def _points(self) -> FloatArray:
+        return np.array([point.point for point in self.bodies.history.points], dtype=np.float64).reshape(-1, 3)
+
+    def _speeds(self, state: TimeState, there: Pose) -> FloatArray:
+        """Of the points, (n_points, 3), with levers of a pose of the blocks."""
+        solids = self.bodies.structure.solids
+        solid = solids.label[self._owners]
+        blocks = self.bodies.structure.model.blocks.centroids[self._owners]
+        arms = solids.arms[self._owners] + self._points - blocks
+        arms = np.einsum("nij,nj->ni", there.rotation[self._owners], arms)
+        own = state.velocities[solid]
+        return np.asarray(own[:, :3] + np.cross(own[:, 3:], arms))
+
+    def _largest(self, values: FloatArray) -> FloatArray:
+        """Of each named pair, (n_named,); 0 of a pair that did not touch as built."""
+        found = np.full(len(self.bodies.history.interfaces), -np.inf)
+        np.maximum.at(found, self.of_named, values)
+        return np.where(np.isfinite(found), found, 0.0)
+
+    def _forces(self, step: DeckStep) -> FloatArray:
+        """On the second of each named pair of bodies, (n_named, 3)."""
+        history, joints = self.bodies.history, step.first.joints
+        found = np.zeros((len(history.interfaces), 3))
+        if not len(found):
+            return found
+        touching = joints.joints.touching
+        every = joints.joints.forces(np.vstack([step.first.forces.normal[None], step.first.forces.shear]))
+        forces = np.einsum("nk,nkj->nj", every[: len(touching.sizes)], joints.at.placed.frames)
+        solid = np.append(self.bodies.structure.solids.label, self._grounds)
+        for number, named in enumerate(history.interfaces):
+            first, second = solid[named.bodies]
+            for pair, sign in (((first, second), 1.0), ((second, first), -1.0)):
+                own = (touching.points.bodies == pair).all(axis=1)
+                found[number] += sign * forces[own].sum(axis=0)
+        return found
+
+    @property
+    def _grounds(self) -> IntArray:
+        structure = self.bodies.structure
+        return structure.n_solids + np.arange(len(structure.model.grounds))
