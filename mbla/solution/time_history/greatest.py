@@ -60,7 +60,7 @@ class Greatest:
         self.rotations = np.maximum(self.rotations, np.arccos(np.clip(0.5 * (turn - 1.0), -1.0, 1.0)))
         opening, slip = self.corners.apart(there)
         self.openings, self.slips = np.maximum(self.openings, opening), np.maximum(self.slips, slip)
-        upright = (there.rotation @ (self.rest.rotation.transpose(0, 2, 1) @ self.down)) @ self.down
+        upright = np.einsum("i,nij,nkj,k->n", self.down, there.rotation, self.rest.rotation, self.down)
         fallen = (moved @ self.down > FALLEN * self.heights) | (upright < TILTED)
         self.falling[fallen & np.isnan(self.falling)] = time
         self.last.append(there.shift)
