@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from mbla.assembly.assembly import Assembly, assembly_of
-from mbla.assembly.findings import glue_findings, objective_findings, settlement_findings
+from mbla.assembly.findings import glue_findings, objective_findings, settlement_findings, time_history_findings
 from mbla.contacts.contacts import ContactsRefused
 from mbla.contacts.findings import bent_faults, overlap_findings
 from mbla.contacts.known import KnownContacts
@@ -33,7 +33,7 @@ def build_assembly(deck: Deck, model: Model, known: KnownContacts | None = None)
     faults = [deck.fault_at(path, message) for path, message in overlap_findings(deck, model, contacts)]
     faults += [deck.fault_at(path, message) for path, message in soil_findings(deck, model, contacts)]
     faults += bent_faults(deck, model, contacts)
-    for findings in (glue_findings, objective_findings, settlement_findings):
+    for findings in (glue_findings, objective_findings, settlement_findings, time_history_findings):
         faults += [deck.fault_at(path, message) for path, message in findings(assembly)]
     if faults:
         raise DeckError(first_faults(faults))
