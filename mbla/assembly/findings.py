@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 
 import numpy as np
 
@@ -62,6 +62,21 @@ def objective_findings(assembly: Assembly) -> Iterator[tuple[KeyPath, Message]]:
         elif not objective.crossed(contacts.bodies).any():
             words = "no joint lies between the two sides, so that there is no force: see what `mbla check` says touches"
             yield path, Message("objective-without-effect", words)
+
+
+def dilatancy_findings(assembly: Assembly, laws: Collection[str]) -> Iterator[tuple[KeyPath, Message]]:
+    """Joint laws among those in use that lift as they slide, which none does in a time history.
+
+    laws : in use where blocks have no joint yet
+    """
+    model = assembly.model
+    name = next((case.deck_name for case in model.load_cases if case.time_history is not None), None)
+    if name is None:
+        return
+    for law in dict.fromkeys((*assembly.contacts.joint_names, *laws)):
+        if law in model.joints and model.joints[law].dilatancy > 0.0:
+            words = f"must be 0: load case {name} has a time_history, in which joints slide without dilatancy"
+            yield ("joints", law, "dilatancy"), Message("time-history-not-possible", words)
 
 
 def time_history_findings(assembly: Assembly) -> Iterator[tuple[KeyPath, Message]]:

@@ -219,15 +219,12 @@ def _followed(deck: DeckContent) -> Iterator[Finding]:
 
 
 @rule(DeckContent)
-def no_dilatancy_in_time(deck: DeckContent) -> Iterator[Finding]:
-    """In a time history what slides does not lift."""
+def soil_in_time(deck: DeckContent) -> Iterator[Finding]:
+    """In a time history what slides does not lift; joint laws are judged where it is known which are used."""
     name = next((name for name, case in deck.load_cases.items() if case.time_history is not None), None)
-    if name is None:
-        return
-    places: list[tuple[KeyPath, Any]] = [(("joints", law), joint) for law, joint in deck.joints.items()]
-    for path, joint in (*places, *soils_of(deck)):
-        if joint.dilatancy > 0.0:
-            words = f"must be 0: load case {name} has a time_history, in which joints slide without dilatancy"
+    for path, soil in soils_of(deck) if name is not None else ():
+        if soil.dilatancy > 0.0:
+            words = f"must be 0: load case {name} has a time_history, in which soil slides without dilatancy"
             yield Finding("time-history-not-possible", words, *path, "dilatancy")
 
 

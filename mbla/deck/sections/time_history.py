@@ -69,7 +69,7 @@ class TimeHistorySection(Section):
     forces: list[ForceHistorySection] = Field(default_factory=list, description="forces over time, besides dead loads")
     step: Time | None = Field(
         None,
-        description=f"time step, s; default: {STEP:g}, or less: the shortest step of a record, a hundredth of a pulse",
+        description=f"time step, s; default: {STEP:g}, or less: the step of a record, a hundredth of a pulse",
     )
     duration: Time | None = Field(None, description="s; default: to the end of the last motion or force")
     damping: Annotated[float, RealNumber("number", ge=0, lt=1)] = Field(

@@ -65,10 +65,9 @@ def _header(name: str, lines: Sequence[str]) -> tuple[int, int, float]:
             )
         if points is not None and step is not None:
             return number, *_points_and_step(f"{name}:{number}", points, step)
-    missing = " and ".join(key for key, found in (("NPTS", points), ("DT", step)) if found is None)
-    words = (
-        f"{name}: {missing} is not in its header: write NPTS= 4000, DT= .005 SEC above the values, or give it as CSV"
-    )
+    lacks = [key for key, found in (("NPTS", points), ("DT", step)) if found is None]
+    missing = f"{' and '.join(lacks)} {'are' if len(lacks) > 1 else 'is'}"
+    words = f"{name}: {missing} not in its header: write NPTS= 4000, DT= .005 SEC above the values, or give it as CSV"
     raise refused(words)
 
 

@@ -73,11 +73,10 @@ def build_time_history(
 
 
 def _default_step(section: TimeHistorySection, motions: tuple[BaseMotion, ...], signals: list[Signal]) -> float:
-    """The usual one, or the shortest step of a record, or a hundredth of the shortest pulse."""
+    """The usual one, or the step of a record, or a hundredth of the shortest pulse."""
     pulses = [each.duration / OF_PULSE for each in motions_of(section) if each.duration is not None]
     of_files = [motion.signal for motion in motions if motion.source] + signals[len(motions) :]
-    steps = [float(np.diff(signal.times)[np.diff(signal.times) > 0.0].min()) for signal in of_files]
-    return min([STEP, *pulses, *steps])
+    return min([STEP, *pulses, *(signal.usual_step for signal in of_files)])
 
 
 def _motions(name: str, section: TimeHistorySection, path: KeyPath, site: LoadSite) -> Iterator[BaseMotion]:

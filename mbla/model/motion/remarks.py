@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
 from mbla.deck.sections.motion import ForceHistorySection, MotionSection
@@ -12,10 +10,8 @@ from mbla.errors import Notice
 from mbla.model.loads.load_kind import LoadSite
 from mbla.model.motion.record import Record
 from mbla.model.motion.signal import Signal
+from mbla.model.motion.time_history import TimeHistory
 from mbla.model.wording import counted
-
-if TYPE_CHECKING:
-    from mbla.model.motion.time_history import TimeHistory
 
 STRONGEST, WEAKEST = 3.0, 1e-3
 """g, of base accelerations: no earthquake has more, and less moves no masonry"""
@@ -78,8 +74,7 @@ def remark_on_step(name: str, section: TimeHistorySection, built: TimeHistory, s
     if section.step is None:
         return
     for each in built.drivers:
-        steps = np.diff(each.signal.times)
-        least = float(np.median(steps[steps > 0.0]))
+        least = each.signal.usual_step
         if each.source and section.step > least * (1.0 + UNEVEN):
             words = f"{name}: step {section.step:g} s is above that of {each.source}, {least:.4g} s"
             site.warn(
