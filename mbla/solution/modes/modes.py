@@ -25,6 +25,8 @@ class Modes:
     settlement : (n_blocks, 6) m, rad, by which the joints give under the dead load
     loose      : (n_blocks,) blocks that joints do not hold: they move at no frequency, which is no mode
     reason     : why there are none; empty where there are
+    residual   : by code that did not find them: greatest ‖K φ − ω² M φ‖ over ‖ω² M φ‖; nan before that
+    verified   : whether modes, and the state they belong to, are what they are said to be
     """
 
     periods: FloatArray = field(default_factory=lambda: np.zeros(0))
@@ -37,6 +39,8 @@ class Modes:
     settlement: FloatArray = field(default_factory=lambda: np.zeros((0, 6)))
     loose: BoolArray = field(default_factory=lambda: np.zeros(0, dtype=np.bool_))
     reason: str = ""
+    residual: float = math.nan
+    verified: bool = False
 
     def __len__(self) -> int:
         return len(self.periods)

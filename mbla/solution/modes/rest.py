@@ -17,7 +17,6 @@ from mbla.contacts.contacts import Contacts
 from mbla.model.model import LoadCase
 from mbla.program.assemble import assemble
 from mbla.program.stiffness_shares import stiffness_areas
-from mbla.questions.load_factor import LOAD_FACTOR
 from mbla.solution.flow.gravity_step import gravity_step
 from mbla.solution.law.elastic_joints import ElasticJoints
 from mbla.solution.law.stiffness_of_joints import default_stiffness, joint_stiffness
@@ -53,14 +52,9 @@ class Rest:
         return float(np.linalg.norm(self.settlement[:, :3], axis=1).max(initial=0.0))
 
 
-def dead_load_alone(case: LoadCase) -> LoadCase:
-    """The load case before anything else acts: supports that settle later are held, loads do not travel yet."""
-    return replace(case, live_load=case.dead_load, question=LOAD_FACTOR)
-
-
 def at_rest(assembly: Assembly, load_case: LoadCase) -> Rest | str:
     """The structure under its dead load, or why it does not rest there, in words."""
-    alone = dead_load_alone(load_case)
+    alone = load_case.dead_alone
     bodies = assembly.of(alone)
     model, contacts, case = bodies.model, bodies.contacts, bodies.load_case(alone)
     if not len(contacts.points):
