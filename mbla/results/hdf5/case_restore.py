@@ -20,6 +20,7 @@ from mbla.solution.further.further import Further
 from mbla.solution.further.geometric_safety.geometric_safety import GeometricSafety
 from mbla.solution.further.sensitivity.slopes import Side, Slope
 from mbla.solution.further.soil_range.soil_path import SoilPath
+from mbla.solution.modes.modes import NO_MODES, Modes
 from mbla.solution.pushover.curve_rows import CurveEnd, CurveRow
 from mbla.solution.pushover.pushover import NOT_PUSHED, Pushover
 from mbla.solution.pushover.record import PushedRows, RowPoints
@@ -72,6 +73,7 @@ def case_from(load_case: LoadCase, get: dict[str, Any]) -> CaseResult:
             pushover=_pushover(get),
             sensitivity=records(Slope, get, "sensitivity") if "sensitivity/parameter" in get else (),
             geometric_safety=_geometric_safety(get),
+            modes=_modes(get),
             soil_range=records(SoilPath, get, "soil_range") if "soil_range/share" in get else (),
         ),
     }
@@ -123,6 +125,15 @@ def _geometric_safety(get: dict[str, Any]) -> GeometricSafety | None:
     if not 1 <= len(values["sizes"]) <= 2 or not (values["sizes"] > 0.0).all():
         raise ValueError("sizes of joints")
     return GeometricSafety(**values | {"verified": bool(values["verified"])})
+
+
+def _modes(get: dict[str, Any]) -> Modes:
+    if "modes/periods" not in get:
+        return NO_MODES
+    values = held(Modes, "modes", get)
+    if not (len(values["periods"]) and (values["periods"] > 0.0).all() and (np.diff(values["periods"]) <= 0.0).all()):
+        raise ValueError("periods of modes")
+    return Modes(**values | {"verified": bool(values["verified"])})
 
 
 def _choices(key: str) -> tuple[str, ...]:

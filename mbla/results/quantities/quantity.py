@@ -21,6 +21,7 @@ UNITS: dict[UnitKind, str] = {
     "mass": "{mass}",
     "degree": "degree",
     "radian": "rad",
+    "frequency": "1/s",
     "stress": "{force}/{length}2",
     "bedding": "{force}/{length}3",
     "force": "{force}",
@@ -63,6 +64,7 @@ UNVERIFIED = {
     "words": "reasons and remarks in words",
     "standing": "that it stands only by self-stress, or that it is doubtful whether it stands",
     "falls": "which block falls first",
+    "modes": "of modes of vibration: which blocks joints do not hold",
     "history": "of elastic joints: the forces that they remember, and how stiff they are",
     "soil": "load factors of soil that slides with a dilatancy, beside the answer",
     "curve": "of a pushover: energies, errors of its load factors, where it jumps, which blocks fall without the rest, "

@@ -10,6 +10,7 @@ from mbla.results.quantities import (  # noqa: F401
     interfaces,
     loads,
     model,
+    modes,
     moving,
     points,
     run,

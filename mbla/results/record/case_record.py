@@ -26,6 +26,7 @@ from mbla.results.record.case_parts import (
 )
 from mbla.results.record.earth_pressure import EARTH_PRESSURE, EarthPressure, earth_pressures
 from mbla.results.record.mechanism_json import MECHANISM
+from mbla.results.record.modes_record import MODES
 from mbla.results.record.objects import Object
 from mbla.results.record.scene import Scene
 from mbla.results.record.unit_stress import UNIT_STRESS
@@ -119,6 +120,7 @@ CASE.holds(
     "by how much the joints may shrink about their middles before the dead load falls; null where the deck does not "
     "ask",
 )
+CASE.holds("modes", MODES, "modes of vibration about the state at rest; null where not asked for, or there are none")
 CASE.holds(
     "soil_range",
     further.SOIL_RANGE,

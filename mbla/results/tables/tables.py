@@ -77,6 +77,7 @@ PROGRAMS = _of_rows(solving.PROGRAMS, "each program that was solved for a load c
 ITERATIONS = _of_rows(solving.ITERATIONS, "each iteration of each program")
 PATH = _of_rows(solving.PATH, "each step of the path of elastic joints that was followed")
 CURVE = _of_rows(steps.CURVE, "each step of a pushover")
+MODES = _of_scenes("modes", "each mode of vibration", lambda scene: len(scene.solved.solution.further.modes))
 SENSITIVITY = _of_rows(further.SENSITIVITY, "each parameter by which the load factor is known to change")
 
 
@@ -105,7 +106,7 @@ TABLES: dict[str, TableKind] = {
     kind.name: kind
     for kind in (
         *(CASES, BLOCKS, INTERFACES, POINTS, REACTIONS, TIES, PROGRAMS, ITERATIONS, PATH, CURVE),
-        *(SENSITIVITY, SERIES, NOTICES),
+        *(MODES, SENSITIVITY, SERIES, NOTICES),
     )
 }
 
