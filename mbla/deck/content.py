@@ -74,6 +74,19 @@ class Expectation(Section):
         None,
         description="flow other than associative: least load factor of the states of rigid joints that a search found",
     )
+    peak: Number | None = Field(None, description="time_history: greatest displacement of the centre of a block")
+    peak_time: Number | None = Field(None, description="time_history: when that is, s")
+    residual: Number | None = Field(
+        None, description="time_history: greatest displacement at the end, its difference relative to the peak"
+    )
+    falls: Line | None = Field(
+        None, description="time_history: block that falls first, `wall[3]`; none: no block falls"
+    )
+    end: Literal["duration", "collapse", "displaced", "at_rest"] | None = Field(
+        None,
+        description="time_history: how it ends: duration over, a block has fallen by half of its height, displacement "
+        "of `stop` reached, at rest",
+    )
     status: Literal["solved", "approximate", "not_verified", "no_equilibrium", "unbounded"] | None = Field(
         None, description="status of the case"
     )
@@ -90,6 +103,11 @@ FIGURES = (
     "least",
     "greatest",
     "least_load_factor",
+    "peak",
+    "peak_time",
+    "residual",
+    "falls",
+    "end",
     "status",
 )
 

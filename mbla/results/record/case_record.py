@@ -25,6 +25,7 @@ from mbla.results.record.case_parts import (
     residuals_of,
 )
 from mbla.results.record.earth_pressure import EARTH_PRESSURE, EarthPressure, earth_pressures
+from mbla.results.record.history_record import TIME_HISTORY
 from mbla.results.record.mechanism_json import MECHANISM
 from mbla.results.record.modes_record import MODES
 from mbla.results.record.objects import Object
@@ -108,6 +109,7 @@ _PUSHOVER.fields(
     curve_end_error=Field("change of the displacement there with steps of twice the size", unit="length", rule="open"),
     curve_last_error=Field("change of the load factor there with steps of twice the size", rule="open"),
 )
+CASE.holds("time_history", TIME_HISTORY, "the structure in time; null where the deck does not ask")
 CASE.holds(
     "sensitivity",
     further.SENSITIVITY,

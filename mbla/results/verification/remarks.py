@@ -27,6 +27,7 @@ from mbla.solution.pushover.start import no_pushover, why_not_pushed
 from mbla.solution.sequence.tilting_table import NOT_PROVED_BETWEEN
 from mbla.solution.solution import WITH_VALUE, Solution, Status
 from mbla.solution.verification.modes import checked_modes
+from mbla.solution.time_history.judged import history_remarks
 from mbla.solution.verification.tilting_table import GOOD
 
 
@@ -76,6 +77,7 @@ def remarks_found_again(deck: Deck, assembly: Assembly, case: CaseResult) -> tup
     if len(solution.further.modes):
         found += modes_remarks(load_case, solution.further.modes)
         found += [modes_wrong(words) for words in checked_modes(assembly, load_case, solution.further.modes)[1]]
+    found += history_remarks(model, load_case, solution.further.time_history)
     if deck.analysis.sensitivity is not False:
         against = why_no_sensitivity(load_case, solution, case.checks)
         found += [no_sensitivity(against)] if against else []
