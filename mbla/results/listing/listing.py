@@ -49,6 +49,7 @@ from mbla.results.listing.sections.modes import modes_blocks
 from mbla.results.listing.sections.pushover import curve_blocks
 from mbla.results.listing.sections.sensitivity import sensitivity_blocks
 from mbla.results.listing.sections.tie_words import tie_force_blocks, tie_title
+from mbla.results.listing.sections.time_history import history_sections
 from mbla.results.listing.sections.unit_words import unit_blocks
 from mbla.results.listing.summary import warning_blocks
 from mbla.results.listing.text import counted, full_sentence, number, section_lines, text_of
@@ -85,6 +86,7 @@ def case_sections(assembly: Assembly, case: CaseResult) -> list[ListingSection]:
         "Path of elastic joints": path_blocks(model, case),
         "Pushover": curve_blocks(model, case),
         "Modes of vibration": modes_blocks(assembly, case),
+        **history_sections(assembly, case),
         "Geometric safety": geometric_safety_blocks(case),
         "Sensitivity": sensitivity_blocks(case),
         "Assessment": assessment_blocks(case),
