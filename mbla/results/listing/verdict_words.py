@@ -8,8 +8,8 @@ from mbla.model.model import LoadCase, Model
 from mbla.results.collapse.mechanics import live_load_in_g
 from mbla.results.findings import BROKEN, rounding_of
 from mbla.results.listing.answers import answer_figure, status_name
-from mbla.results.listing.sections.modes import modes_words
 from mbla.results.listing.history_verdict import history_verdict
+from mbla.results.listing.sections.modes import modes_words
 from mbla.results.listing.text import number, small
 from mbla.results.outcome import (
     answer_of,
