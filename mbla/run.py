@@ -202,9 +202,19 @@ def solve_case(
     answer = answered(assembly, load_case, settings, log, states)
     status_file.remark(f"{load_case.name}: {answer.status}")
     case = CaseResult(answer.load_case, answer.solution, answer.checks, answer.status)
+    if load_case.modes and (load_case.has_load_factor or load_case.time_history is not None):
+        case = _with_modes(assembly, case)
     if load_case.pushover is not None:
         case = _pushed(deck, assembly, case, settings_for(load_case, settings), log, tell)
     return _finished(assembly, _with_limits(deck, assembly, case, log))
+
+
+def _with_modes(assembly: Assembly, case: CaseResult) -> CaseResult:
+    """A load case with its modes of vibration beside its answer."""
+    from mbla.solution.modes.checked import checked_modes_of  # late: few load cases ask for them
+
+    modes, remarks = checked_modes_of(assembly, case.load_case, case.load_case.modes)
+    return case.with_further(replace(case.solution.further, modes=modes), remarks)
 
 
 def _with_limits(deck: Deck, assembly: Assembly, case: CaseResult, log: Log) -> CaseResult:

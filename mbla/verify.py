@@ -59,6 +59,7 @@ from mbla.solution.settings import settings_for, solver_settings
 from mbla.solution.solution import Solution, Standing, Status
 from mbla.solution.thresholds import SOLVED_RESIDUAL
 from mbla.solution.verification.geometric_safety import proved
+from mbla.solution.verification.modes import checked_modes
 from mbla.solution.verification.statics import load_scale
 from mbla.solution.verification.tilting_table import found_angle, found_tangent
 from mbla.solution.verification.verify import level_bound, verify
@@ -165,6 +166,8 @@ def _further_again(results: Results, deck: Deck | None, case: CaseResult) -> Fur
         rows = begun_by(load_case, solution, rows)
         curve = curve_of(assembly, load_case, solution, rows)
         further = replace(further, pushover=replace(further.pushover, rows=rows, curve=curve))
+    if len(further.modes):
+        further = replace(further, modes=checked_modes(assembly, load_case, further.modes)[0])
     if safety is not None:
         own = proved(assembly, load_case, safety)
         further = replace(further, geometric_safety=replace(safety, verified=own))

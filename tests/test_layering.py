@@ -112,6 +112,10 @@ GIVEN_TO_IT = {
     "solution/further/strengthening/strengthening.py": "what may be added to a structure",
     "solution/further/sensitivity/structures.py": "a structure with another parameter",
     "solution/pushover/pushover.py": "the claim of a pushover",
+    "solution/modes/modes.py": "the claim of modes",
+    "solution/time_history/frames.py": "frames of a time history",
+    "solution/time_history/history.py": "the claim of a time history",
+    "solution/time_history/step_rows.py": "rows of a time history and why it ends",
 }
 """files of program and solution that the verification sees, by itself or through others, and what they are: no matrix,
 no law and no proof of the solver"""

@@ -3,7 +3,13 @@
 from __future__ import annotations
 
 from mbla.assembly.assembly import Assembly, assembly_of
-from mbla.assembly.findings import glue_findings, objective_findings, settlement_findings
+from mbla.assembly.findings import (
+    dilatancy_findings,
+    glue_findings,
+    objective_findings,
+    settlement_findings,
+    time_history_findings,
+)
 from mbla.contacts.contacts import ContactsRefused
 from mbla.contacts.findings import bent_faults, overlap_findings
 from mbla.contacts.known import KnownContacts
@@ -33,8 +39,10 @@ def build_assembly(deck: Deck, model: Model, known: KnownContacts | None = None)
     faults = [deck.fault_at(path, message) for path, message in overlap_findings(deck, model, contacts)]
     faults += [deck.fault_at(path, message) for path, message in soil_findings(deck, model, contacts)]
     faults += bent_faults(deck, model, contacts)
-    for findings in (glue_findings, objective_findings, settlement_findings):
+    for findings in (glue_findings, objective_findings, settlement_findings, time_history_findings):
         faults += [deck.fault_at(path, message) for path, message in findings(assembly)]
+    laws = [deck.contacts.joint, *(override.joint for override in deck.contacts.overrides)]
+    faults += [deck.fault_at(path, message) for path, message in dilatancy_findings(assembly, laws)]
     if faults:
         raise DeckError(first_faults(faults))
     return assembly

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 
 import numpy as np
 
@@ -11,6 +11,7 @@ from mbla.assembly.assembly import Assembly
 from mbla.assembly.rigid_bodies import RigidBodies, guides_at_odds
 from mbla.errors import KeyPath, Message
 from mbla.model.model import LoadCase
+from mbla.model.motion.time_history import TimeHistory
 from mbla.model.objective import ENDS
 from mbla.model.ties.ties import OUTSIDE
 from mbla.model.wording import named
@@ -61,6 +62,59 @@ def objective_findings(assembly: Assembly) -> Iterator[tuple[KeyPath, Message]]:
         elif not objective.crossed(contacts.bodies).any():
             words = "no joint lies between the two sides, so that there is no force: see what `mbla check` says touches"
             yield path, Message("objective-without-effect", words)
+
+
+def dilatancy_findings(assembly: Assembly, laws: Collection[str]) -> Iterator[tuple[KeyPath, Message]]:
+    """Joint laws among those in use that lift as they slide, which none does in a time history.
+
+    laws : in use where blocks have no joint yet
+    """
+    model = assembly.model
+    name = next((case.deck_name for case in model.load_cases if case.time_history is not None), None)
+    if name is None:
+        return
+    for law in dict.fromkeys((*assembly.contacts.joint_names, *laws)):
+        if law in model.joints and model.joints[law].dilatancy > 0.0:
+            words = f"must be 0: load case {name} has a time_history, in which joints slide without dilatancy"
+            yield ("joints", law, "dilatancy"), Message("time-history-not-possible", words)
+
+
+def time_history_findings(assembly: Assembly) -> Iterator[tuple[KeyPath, Message]]:
+    """Recorded interfaces without a joint, or within what moves as one; kinematic blocks that glue or guides hold."""
+    for case in assembly.model.load_cases:
+        if case.time_history is not None:
+            path = ("load_cases", case.deck_name, "time_history")
+            yield from _rigid_held(assembly, case.time_history, path)
+            yield from _without_interface(assembly, case.time_history, path)
+
+
+def _rigid_held(assembly: Assembly, history: TimeHistory, path: KeyPath) -> Iterator[tuple[KeyPath, Message]]:
+    held, name = assembly.contacts.report.held, assembly.model.blocks.name
+    for blocks in history.rigid:
+        if len(stuck := np.intersect1d(blocks, held)):
+            words = f"{named(stuck, name)} is glued to a support: what moves as one has no block that does not move"
+            yield (*path, "rigid"), Message("rigid-blocks", words)
+        elif len(guided := np.intersect1d(blocks, assembly.model.guides.blocks)) > 1:
+            words = f"{named(guided, name)} are guided each by itself: guide one of what moves as one"
+            yield (*path, "rigid"), Message("rigid-blocks", words)
+
+
+def _without_interface(assembly: Assembly, history: TimeHistory, path: KeyPath) -> Iterator[tuple[KeyPath, Message]]:
+    """Of pairs with one name, as of a block and each ground, one at least has a joint."""
+    model = assembly.model
+    joints = {tuple(pair) for pair in np.sort(assembly.contacts.bodies, axis=1).tolist()}
+    pairs: dict[str, list[tuple[int, ...]]] = {}
+    for each in history.interfaces:
+        pairs.setdefault(each.name.partition("[")[0], []).append(tuple(each.bodies.tolist()))
+    for name, found in pairs.items():
+        place: KeyPath = (*path, "record", "interfaces", name, "between")
+        first, second = (model.body_name(body) for body in found[0])
+        if joints.isdisjoint(found):
+            words = f"no joint lies between {first} and {second}: see what `mbla check` says touches"
+            yield place, Message("recorded-interface-missing", words)
+        elif any(np.isin(pair, blocks).all() for pair in found for blocks in history.rigid):
+            words = f"{first} and {second} move as one, by `rigid`: nothing happens between them"
+            yield place, Message("recorded-interface-missing", words)
 
 
 def _loose_ties(assembly: Assembly, rows: IntArray, path: KeyPath) -> Iterator[tuple[KeyPath, Message]]:

@@ -74,6 +74,19 @@ class Expectation(Section):
         None,
         description="flow other than associative: least load factor of the states of rigid joints that a search found",
     )
+    peak: Number | None = Field(None, description="time_history: greatest displacement of the centre of a block")
+    peak_time: Number | None = Field(None, description="time_history: when that is, s")
+    residual: Number | None = Field(
+        None, description="time_history: greatest displacement at the end, its difference relative to the peak"
+    )
+    falls: Line | None = Field(
+        None, description="time_history: block that falls first, `wall[3]`; none: no block falls"
+    )
+    end: Literal["duration", "collapse", "displaced", "at_rest"] | None = Field(
+        None,
+        description="time_history: how it ends: duration over, a block has fallen by half of its height, displacement "
+        "of `stop` reached, at rest",
+    )
     status: Literal["solved", "approximate", "not_verified", "no_equilibrium", "unbounded"] | None = Field(
         None, description="status of the case"
     )
@@ -90,6 +103,11 @@ FIGURES = (
     "least",
     "greatest",
     "least_load_factor",
+    "peak",
+    "peak_time",
+    "residual",
+    "falls",
+    "end",
     "status",
 )
 
@@ -216,6 +234,16 @@ def _followed(deck: DeckContent) -> Iterator[Finding]:
             if settlement is not None and settlement.amount is not None:
                 place = (number,) if isinstance(given, list) else ()
                 yield Finding("key-of-another-choice", words, "load_cases", name, "settlement", *place, "amount")
+
+
+@rule(DeckContent)
+def soil_in_time(deck: DeckContent) -> Iterator[Finding]:
+    """In a time history what slides does not lift; joint laws are judged where it is known which are used."""
+    name = next((name for name, case in deck.load_cases.items() if case.time_history is not None), None)
+    for path, soil in soils_of(deck) if name is not None else ():
+        if soil.dilatancy > 0.0:
+            words = f"must be 0: load case {name} has a time_history, in which soil slides without dilatancy"
+            yield Finding("time-history-not-possible", words, *path, "dilatancy")
 
 
 @rule(DeckContent)

@@ -19,7 +19,9 @@ from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
 from mbla.deck.expressions import CONSTANTS, FUNCTIONS, ParameterFaultError
 from mbla.deck.section import wrong_values
-from mbla.errors import Finding, ValueRefused
+from mbla.deck.suggestions import listed
+from mbla.deck.units import DIMENSIONS
+from mbla.errors import Finding, Message, ValueRefused
 
 NAME_PATTERN = r"^[A-Za-z0-9_][A-Za-z0-9_.-]*$"
 PARAMETER_PATTERN = r"^[A-Za-z_][A-Za-z0-9_]*$"
@@ -75,6 +77,52 @@ class RealNumber:
 
 
 @dataclass(frozen=True)
+class WithUnit(RealNumber):
+    """Annotation of a number field that takes texts with a unit alone, for what would be too often meant in another."""
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
+        number = core_schema.float_schema(gt=self.gt, ge=self.ge, lt=self.lt, le=self.le)
+        return core_schema.chain_schema([core_schema.with_info_plain_validator_function(self._number), number])
+
+    def __get_pydantic_json_schema__(self, schema: CoreSchema, handler: GetJsonSchemaHandler) -> JsonSchemaValue:
+        return {"type": "string", "pattern": QUANTITY_PATTERN.replace("=|", "")}
+
+    def _number(self, value: Any, info: core_schema.ValidationInfo) -> float:
+        example = DIMENSIONS[self.dimension].example
+        if isinstance(value, str) and not value.lstrip().startswith("="):
+            return _converted(value, self.dimension, info)
+        wrong_values(info.context).add()
+        words = f'needs its unit, in a text such as "{example}"'
+        raise PydanticCustomError("quantity", "{reason}", {"reason": Message("wrong-unit", words)})
+
+
+@dataclass(frozen=True)
+class UnitOf:
+    """Annotation of a text field for a unit of a dimension, in which a file has its numbers: ``cm/s2``.
+
+    examples : to be offered
+    """
+
+    dimension: str
+    examples: tuple[str, ...]
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
+        check = core_schema.with_info_plain_validator_function(self._checked)
+        return core_schema.chain_schema([core_schema.str_schema(strict=True), check])
+
+    def __get_pydantic_json_schema__(self, schema: CoreSchema, handler: GetJsonSchemaHandler) -> JsonSchemaValue:
+        return {"type": "string", "examples": list(self.examples)}
+
+    def _checked(self, value: str, info: core_schema.ValidationInfo) -> str:
+        try:
+            _converted(f"1 {value}", self.dimension, info)
+        except PydanticCustomError:
+            words = f"is no unit of {self.dimension.rpartition('_')[2]}: write {listed(self.examples)}"
+            raise PydanticCustomError("quantity", "{reason}", {"reason": Message("wrong-unit", words)}) from None
+        return value
+
+
+@dataclass(frozen=True)
 class Integer:
     """Annotation of a field for integers, with its bounds; ``6.0`` and expressions that give 6 are integers."""
 
@@ -105,16 +153,21 @@ def _from_text(dimension: str, accept: Callable[[Any], Any], then: CoreSchema) -
             if accepted is value:  # a number that was right would not have come here
                 wrong_values(info.context).add()
             return accepted
-        function: Callable[[str, str], float] = (info.context or {})["convert"]
-        try:
-            return accept(function(value, dimension))
-        except ParameterFaultError:
-            raise PydanticCustomError("reported", "uses a parameter that is at fault itself") from None
-        except ValueRefused as error:
-            wrong_values(info.context).add()
-            raise PydanticCustomError("quantity", "{reason}", {"reason": error.message}) from None
+        return accept(_converted(value, dimension, info))
 
     return core_schema.chain_schema([core_schema.with_info_plain_validator_function(convert), then])
+
+
+def _converted(text: str, dimension: str, info: core_schema.ValidationInfo) -> float:
+    """A text as a number in the deck's units."""
+    function: Callable[[str, str], float] = (info.context or {})["convert"]
+    try:
+        return function(text, dimension)
+    except ParameterFaultError:
+        raise PydanticCustomError("reported", "uses a parameter that is at fault itself") from None
+    except ValueRefused as error:
+        wrong_values(info.context).add()
+        raise PydanticCustomError("quantity", "{reason}", {"reason": error.message}) from None
 
 
 def _integer(value: Any) -> Any:
@@ -173,6 +226,10 @@ SpreadAngle: TypeAlias = Annotated[float, RealNumber("angle", gt=0, le=60)]
 WallFrictionAngle: TypeAlias = Annotated[float, RealNumber("angle", gt=-90, lt=90)]
 SkewAngle: TypeAlias = Annotated[float, RealNumber("angle", gt=-80, lt=80)]
 Time: TypeAlias = Annotated[float, RealNumber("time", gt=0)]
+NonNegativeTime: TypeAlias = Annotated[float, RealNumber("time", ge=0)]
+BaseAcceleration: TypeAlias = Annotated[float, WithUnit("base_acceleration", gt=0)]
+UnitOfAcceleration: TypeAlias = Annotated[str, UnitOf("base_acceleration", ("g", "m/s2", "cm/s2"))]
+UnitOfForce: TypeAlias = Annotated[str, UnitOf("force", ("N", "kN"))]
 Index: TypeAlias = Annotated[int, Integer(ge=0, le=2**31 - 1)]
 Position: TypeAlias = Annotated[int, Integer(ge=-(2**31), le=2**31 - 1)]
 Count: TypeAlias = Annotated[int, Integer(ge=1, le=1_000_000)]

@@ -46,6 +46,10 @@ SELECTORS = (
     "load_cases.*.objective.force.from",
     "load_cases.*.objective.force.on",
     "load_cases.*.pushover.control.on",
+    "load_cases.*.time_history.forces.#.on",
+    "load_cases.*.time_history.record.points.*.on",
+    "load_cases.*.time_history.record.interfaces.*.between.#",
+    "load_cases.*.time_history.rigid.#",
     "symmetry.#.halves",
     "ties.#.on.#",
     "ties.#.ring.around",
@@ -58,6 +62,7 @@ SELECTORS = (
 WITH_GROUND = (
     "contacts.overrides.#.between.#",
     "contacts.overrides.#.between.#.#",
+    "load_cases.*.time_history.record.interfaces.*.between.#",
     "ties.#.on.#",
     "strengthen.candidates.#.on.#",
 )
@@ -218,6 +223,9 @@ SIDE_FILES = (
     *(f"blocks.#.{kind.name}.{key}" for kind in in_order(ITEM_KINDS) for key in kind.files),
     "supports.#.surface.file",
     "contacts.table",
+    "load_cases.*.time_history.motion.file",
+    "load_cases.*.time_history.motion.#.file",
+    "load_cases.*.time_history.forces.#.file",
     *(f"{loads}.#.{key}" for loads in LOADS for key in loads_that(lambda kind: kind.is_file)),
 )
 """Key paths, in which ``#`` stands for every item and ``*`` for every key."""

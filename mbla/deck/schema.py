@@ -20,7 +20,7 @@ from pydantic_core import PydanticUndefined
 
 from mbla.deck.content import DeckContent
 from mbla.deck.fields import branches
-from mbla.deck.quantities import NAME_PATTERN, PARAMETER_PATTERN, Integer, RealNumber
+from mbla.deck.quantities import NAME_PATTERN, PARAMETER_PATTERN, Integer, RealNumber, WithUnit
 from mbla.deck.section import EXACTLY_ONE
 from mbla.deck.units import DIMENSIONS
 
@@ -217,7 +217,8 @@ def _integer(item: Integer) -> str:
 
 def _quantity(quantity: RealNumber) -> str:
     unit = DIMENSIONS[quantity.dimension].unit
-    words = f"number [{unit}]" if unit else "number"
+    kind = "number with its unit" if isinstance(quantity, WithUnit) else "number"
+    words = f"{kind} [{unit}]" if unit else kind
     signs = {"gt": ">", "ge": "≥", "lt": "<", "le": "≤"}
     bounds = [f"{sign} {getattr(quantity, key):g}" for key, sign in signs.items() if getattr(quantity, key) is not None]
     return ", ".join([words, *bounds])

@@ -46,6 +46,7 @@ DIMENSIONS = {
     "unit_weight": Dimension("F/L^3", (-3, 1, 0), "N/m**3", "18 kN/m^3"),
     "stiffness_per_area": Dimension("F/L^3", (-3, 1, 0), "N/m**3", "10 GPa/m"),
     "acceleration": Dimension("L/s^2", (1, 0, 0), "m/s**2", "9.81 m/s^2"),
+    "base_acceleration": Dimension("L/s^2", (1, 0, 0), "m/s**2", "0.3 g"),
     "angle": Dimension("degree", (0, 0, 0), "degree", "0.5 rad"),
     "time": Dimension("s", (0, 0, 0), "s", "10 min"),
 }
@@ -63,10 +64,16 @@ DECIMAL: dict[str, dict[str, float]] = {
     "unit_weight": {"N/m^3": 1.0, "kN/m^3": 1e3},
     "stiffness_per_area": {"N/m^3": 1.0, "Pa/m": 1.0, "kPa/m": 1e3, "MPa/m": 1e6, "GPa/m": 1e9, "N/mm^3": 1e9},
     "acceleration": {"m/s^2": 1.0},
+    "base_acceleration": {"m/s^2": 1.0, "cm/s^2": 1e-2, "mm/s^2": 1e-3},
     "angle": {"degree": 1.0, "degrees": 1.0, "deg": 1.0},
     "time": {"s": 1.0, "min": 60.0},
 }
 """Factors to ``Dimension.si`` of what decks mostly write; all else is for pint, which takes half a second to load."""
+
+OF_EARTHQUAKES: dict[str, dict[str, float]] = {
+    "base_acceleration": {"g": STANDARD_GRAVITY, "gal": 1e-2, "Gal": 1e-2},
+}
+"""of these dimensions alone: elsewhere g is a gram, gal a gallon"""
 
 
 @dataclass(frozen=True)
@@ -145,7 +152,7 @@ def _registry() -> Any:
 
 def _si_factor(unit: str, dimension: str) -> float:
     """Factor from a unit to the SI unit of a dimension (angles: degree)."""
-    decimal = DECIMAL[dimension].get(unit)
+    decimal = (DECIMAL[dimension] | OF_EARTHQUAKES.get(dimension, {})).get(unit)
     factor = _factor_by_pint(unit, dimension) if decimal is None else decimal
     if isinstance(factor, str):
         raise ValueRefused("wrong-unit", factor)

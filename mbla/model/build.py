@@ -111,7 +111,7 @@ def _load_cases(
         return [end for each in load_cases for end in build_objective(section, path, each, site, guides, ties)]
     if section.settlement is not None:
         return [build_settlement(section, path, load_case, supports, site.selection) for load_case in load_cases]
-    for load_case in load_cases:
+    for load_case in load_cases if section.live is not None else ():
         if not site.selection.faults and does_nothing(load_case.live_load, supports):
             place = load_case.question.place
             where = f" at position {place.number}" if place.count else ""

@@ -15,9 +15,13 @@ from mbla.model.applied_load import AppliedLoad, without_levers
 from mbla.model.loads.gravity import gravity_of, with_gravity
 from mbla.model.loads.load_kind import CaseKind, Entry, LoadSite, Variant, entries_of, load_kind
 from mbla.model.model import LoadCase, Pushing
+from mbla.model.motion.build import build_time_history
+from mbla.model.motion.time_history import TimeHistory
 from mbla.model.selectors import select_blocks
 from mbla.model.solids.plane import unit
 from mbla.model.wording import named, vector
+from mbla.questions.modes import FirstPeriod
+from mbla.questions.time_history import PeakDisplacement
 
 CANCELLED = 1e-12
 """sum of loads, relative to the loads themselves, at which nothing is left of them but rounding"""
@@ -78,7 +82,7 @@ def build_load_cases(name: str, section: LoadCaseSection, site: LoadSite) -> tup
     dead = _add_up(dead_loads, site, live=False).plus(*site.water)
     live_loads = list(entries_of(section.live or [], (*path, "live"), site.named))
     live = _add_up(live_loads, site, live=True)
-    variants = [Variant()]
+    variants = [_asked(section)]
     for entry in live_loads:
         if isinstance(kind := LOAD_KEYS[entry.kind], CaseKind):  # a rule of the deck: at most one is
             variants = kind.variants(name, entry, dead_loads, dead.net, site)
@@ -100,6 +104,8 @@ def build_load_cases(name: str, section: LoadCaseSection, site: LoadSite) -> tup
             question=variant.question,
             pushover=_pushing(name, section, dead, own, site) if asked in (None, place.number) else None,
             assessment=section.assessment,
+            time_history=_in_time(name, section, dead, site),
+            modes=section.modes or 0,
         )
         cases.append(case)
     if sound and dead.complete:
@@ -124,6 +130,20 @@ def _judge_soil(name: str, gravity: FloatArray, tilts: bool, site: LoadSite) -> 
             f"pressure at least, though {why}: leave out passive for this load case"
         )
         site.warn("soil-stress-stays", words)
+
+
+def _asked(section: LoadCaseSection) -> Variant:
+    """What a load case asks if its loads do not say."""
+    if section.time_history is not None:
+        return Variant(question=PeakDisplacement())
+    return Variant() if section.modes is None else Variant(question=FirstPeriod())
+
+
+def _in_time(name: str, section: LoadCaseSection, dead: _Sum, site: LoadSite) -> TimeHistory | None:
+    """The structure in time, with levers and following parts of the dead loads; None for nothing, or for a fault."""
+    if section.time_history is None:
+        return None
+    return build_time_history(name, section.time_history, dead.total[:, 6:], dead.following[:, :6], site)
 
 
 def _pushing(name: str, section: LoadCaseSection, dead: _Sum, live: _Sum, site: LoadSite) -> Pushing | None:

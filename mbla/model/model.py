@@ -131,6 +131,18 @@ class LoadCase:
         return tuple(load.words for load in self.live)
 
     @property
+    def dead_alone(self) -> LoadCase:
+        """The load case before anything else acts, with the dead load in the place of what λ multiplies: supports that
+        settle later are held, loads do not travel yet.
+        """
+        return replace(self, live_load=self.dead_load, question=LOAD_FACTOR)
+
+    @property
+    def has_load_factor(self) -> bool:
+        """Whether it asks for a figure that a load factor stands for, not how it vibrates or moves in time alone."""
+        return self.question.group not in ("modes", "time_history")
+
+    @property
     def deck_name(self) -> str:
         """Name in the deck, where a travelling load is one load case for all positions, an objective for both ends."""
         return self.question.series or self.name

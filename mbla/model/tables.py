@@ -71,7 +71,7 @@ class CsvTable:
         values = np.zeros((len(self), len(names)))
         for column, name in enumerate(names):
             for row, text in enumerate(self.columns[name]):
-                number = _number(text, self.decimal_comma)
+                number = finite_number(text, self.decimal_comma)
                 if number is None:
                     words = f"{self.file}:{self.lines[row]}: {name} = {text or '(empty)'}: must be a finite number"
                     self.faults.append(Message("table-number", words))
@@ -102,14 +102,9 @@ def read_table(
     Raises TableRefused for files that cannot be read, headers that lack or misspell a column, and rows that do not fit
     the header.
     """
-    name = path.name
+    name, text = path.name, text_of(path)
     try:
-        text = path.read_bytes().decode("utf-8-sig")
         (line, header), *rows = _rows(text)
-    except OSError as error:
-        raise _unreadable(f"{name}: cannot be read: {error.strerror or error}") from error
-    except UnicodeDecodeError as error:
-        raise _unreadable(f"{name}: is not UTF-8 text: save it as CSV UTF-8") from error
     except csv.Error as error:
         raise _unreadable(f"{name}:{error}") from error
     except ValueError:
@@ -128,6 +123,16 @@ def read_table(
     columns = {each: [row[place] for _, row in rows] for place, each in enumerate(known)}
     rest = [[text for text in row[len(known) :] if text] for _, row in rows] if with_rest else []
     return CsvTable(name, columns, rest, [number for number, _ in rows], _separator(text) == ";")
+
+
+def text_of(path: Path) -> str:
+    """Text of a file; raises TableRefused where it cannot be read."""
+    try:
+        return path.read_bytes().decode("utf-8-sig")
+    except OSError as error:
+        raise _unreadable(f"{path.name}: cannot be read: {error.strerror or error}") from error
+    except UnicodeDecodeError as error:
+        raise _unreadable(f"{path.name}: is not UTF-8 text: save it as CSV UTF-8") from error
 
 
 def _unreadable(words: str) -> TableRefused:
@@ -179,7 +184,8 @@ def _misfit(row: list[str], known: Sequence[str], with_rest: bool) -> str:
     return f"has more columns than the header ({', '.join(known)})" if more else ""
 
 
-def _number(text: str, decimal_comma: bool) -> float | None:
+def finite_number(text: str, decimal_comma: bool) -> float | None:
+    """The finite number that a text is; None where it is none."""
     plain = text.replace(",", ".", 1) if decimal_comma else text
     try:
         value = math.nan if "_" in plain else float(plain)  # Python would read 1_000

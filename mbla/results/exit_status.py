@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 from mbla.deck.content import Expectation
 from mbla.errors import Notice
 from mbla.results.force_range import ForceRange, force_ranges_of
-from mbla.results.outcome import answer_of, associative_of, figure_of, least_of, result_of
+from mbla.results.outcome import answer_of, associative_of, figure_of, history_of, least_of, result_of
 from mbla.results.results import CaseResult
 from mbla.results.series import series_of
 from mbla.solution.solution import Status
@@ -56,10 +56,16 @@ EXIT_CODES = {
 GRAVEST_FIRST = (7, 4, 5)
 
 
-def differences(cases: Sequence[CaseResult], expected: dict[str, Expectation]) -> list[str]:
-    """What differs in all cases, one sentence each; of a travelling load the worst position is compared."""
+def differences(
+    cases: Sequence[CaseResult], expected: dict[str, Expectation], name_of: Callable[[int], str] = str
+) -> list[str]:
+    """What differs in all cases, one sentence each; of a travelling load the worst position is compared.
+
+    name_of : of blocks
+    """
     named = [case for case in cases if case.load_case.name in expected]
     found = [text for case in named for text in compare_with_expected(case, expected[case.load_case.name])]
+    found += [text for case in named for text in _compare_history(case, expected[case.load_case.name], name_of)]
     for series in series_of(cases):
         if series.name not in expected:
             continue
@@ -118,6 +124,24 @@ def compare_with_expected(case: CaseResult, expected: Expectation) -> list[str]:
         wanted = getattr(expected, key)
         if wanted is not None:
             differences += _compare(name, key, value, wanted, _least(key, case), expected)
+    return differences
+
+
+def _compare_history(case: CaseResult, expected: Expectation, name_of: Callable[[int], str]) -> list[str]:
+    """What differs of a structure in time: its figures, the residual relative to the peak, what falls, its end."""
+    name, found, differences = case.load_case.name, history_of(case), list[str]()
+    for key in ("peak", "peak_time", "residual"):
+        wanted, value = getattr(expected, key), None if found is None else getattr(found, key)
+        if wanted is not None:
+            least = found.peak if found is not None and key == "residual" else ZERO
+            differences += _compare(name, key, value, wanted, least, expected)
+    end = case.solution.further.time_history.end.name.lower()
+    falls = "none" if found is None or found.falls < 0 else name_of(found.falls)
+    said = {"falls": falls, "end": end} if found is not None else dict.fromkeys(("falls", "end"), "not known")
+    for key, value in said.items():
+        wanted = getattr(expected, key)
+        if wanted is not None and wanted != value:
+            differences.append(f"{name}: {key} {value}, expected {wanted} ({expected.source})")
     return differences
 
 

@@ -16,6 +16,7 @@ from mbla.errors import Notice
 from mbla.model.model import LoadCase, Model
 from mbla.results.demand.cracking import cracking_notices
 from mbla.results.findings import found_notices, magnitude_notices
+from mbla.results.history_figures import HistoryFigures, history_figures
 from mbla.results.results import CaseResult, Results
 from mbla.solution.flow.path_record import Stop
 from mbla.solution.pushover.curve_rows import CurveEnd
@@ -253,7 +254,12 @@ def distinct(names: Iterable[str]) -> list[str]:
 def answer_of(case: CaseResult, group: str = "") -> float:
     """The figure that a case asks for; nan where it is no result, and where its question is of another group."""
     found, question = result_of(case), case.load_case.question
-    return math.nan if found is None or group not in ("", question.group) else question.stated(found.load_factor)
+    if group not in ("", question.group):
+        return math.nan
+    if case.load_case.time_history is not None:
+        figures = history_of(case)
+        return math.nan if figures is None else figures.peak
+    return math.nan if found is None else question.stated(found.load_factor)
 
 
 def figure_of(case: CaseResult) -> float:
@@ -270,7 +276,13 @@ def figure_of(case: CaseResult) -> float:
 
 
 def answer_bounds(case: CaseResult) -> tuple[float, float]:
-    """Between which figures the answer is proved to lie by associative flow; nan if not known."""
+    """Between which figures the answer is proved to lie by associative flow; nan if not known.
+
+    Of a structure in time between which its peaks lie with the step and with half of it, which proves nothing.
+    """
+    if case.load_case.time_history is not None:
+        figures = history_of(case)
+        return (math.nan, math.nan) if figures is None else figures.range_of_peak
     associative, checks = case.solution.associative, case.checks
     mechanism = None if associative is None else associative.mechanism
     return case.load_case.question.bounds(checks.static_bound, checks.kinematic_bound, mechanism)
@@ -304,3 +316,11 @@ def ultimate_displacement(case: CaseResult, sure: bool = True) -> float:
     before, last = curve[-2:]
     share = before.load_factor / (before.load_factor - last.load_factor)
     return before.displacement + share * (last.displacement - before.displacement)
+
+
+# --- Structures in time ---------------------------------------------------------------------------------------------
+
+
+def history_of(case: CaseResult) -> HistoryFigures | None:
+    """Figures of a structure in time that are a result; None where there are none."""
+    return history_figures(case.solution.further.time_history) if case.status in WITH_VALUE else None

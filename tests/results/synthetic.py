@@ -51,6 +51,7 @@ from mbla.solution.solution import (
     StandingResult,
     Status,
 )
+from tests.results.rocking import asked, rocks
 
 BOX_FACES = np.array(
     [[0, 3, 2, 1], [4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7]], dtype=np.int64
@@ -439,6 +440,7 @@ def full_solution(solution: Solution) -> Solution:
                     "blocks.0.box.max.0", 4.0, "m", np.nan, np.nan, Side.NONE, "a small change is one of the contacts"
                 ),
             ),
+            time_history=rocks(),
             soil_range=(SoilPath(0.0, np.nan, "not_verified", "it was not seen"), SoilPath(1.0, 0.5, "solved", "")),
         ),
         size=ModelSize(2, 1, 3, 2, 4, 4),
@@ -502,7 +504,7 @@ def full_model(model: Model) -> Model:
         load_cases=(
             replace(model.load_cases[0], question=Reaction(settlement), assessment=ASSESSED),
             model.load_cases[1],
-            replace(not_run, pushover=pushover, question=travel),
+            replace(not_run, pushover=pushover, question=travel, time_history=asked()),
             replace(not_run, name="table", question=angle),
             replace(not_run, name="thrust", question=force),
         ),

@@ -15,6 +15,7 @@ from mbla.deck.sections.loads import Load
 from mbla.deck.sections.objective import ObjectiveSection
 from mbla.deck.sections.selectors import Selector
 from mbla.deck.sections.supports import Turn
+from mbla.deck.sections.time_history import IN_TIME, TimeHistorySection, alone_in_time, given_in_time
 from mbla.deck.suggestions import listed
 from mbla.errors import Finding
 
@@ -23,7 +24,7 @@ STEPS_OF_TWICE_THE_SIZE = (
     "factor, to first order, and of the end of the curve; without these steps the errors are not known"
 )
 
-ASKED = ("live", "settlement", "objective")
+ASKED = ("live", "settlement", "objective", *IN_TIME)
 """Keys of a load case that ask its question; it has at least one of them."""
 
 
@@ -92,12 +93,17 @@ class PushoverSection(Section):
 
 class LoadCaseSection(Section):
     """Loads, and the question about them: dead loads are constant, live loads are multiplied by the load factor; or a
-    support settles under the dead loads; or a force is looked for at a given load factor.
+    support settles under the dead loads; or a force is looked for at a given load factor; or the structure moves in
+    time.
     """
 
     model_config = ConfigDict(
         json_schema_extra={
-            "oneOf": [{"required": ["settlement"]}, {"anyOf": [{"required": ["live"]}, {"required": ["objective"]}]}]
+            "oneOf": [
+                {"required": ["settlement"]},
+                {"anyOf": [{"required": ["live"]}, {"required": ["objective"]}]},
+                {"anyOf": [{"required": [key]} for key in IN_TIME]},
+            ]
         }
     )
 
@@ -135,6 +141,14 @@ class LoadCaseSection(Section):
         None,
         description="verdict of a code on the mechanism that a horizontal acceleration of all blocks brings about; "
         "with `pushover` by displacements too",
+    )
+    time_history: TimeHistorySection | None = Field(
+        None, description="in place of live: the structure in time, as its base moves or forces act on it"
+    )
+    modes: Annotated[int, Integer(ge=1, le=1000)] | None = Field(
+        None,
+        description="in place of live, or with time_history: how many modes of vibration are sought at the state of "
+        "rest under the dead loads, with their periods and participating masses",
     )
 
 
@@ -177,7 +191,10 @@ def several_settlements(case: LoadCaseSection) -> Iterator[Finding]:
 
 @rule(LoadCaseSection)
 def what_is_asked(case: LoadCaseSection) -> Iterator[Finding]:
-    """A load factor, a settlement or a force, and what goes with it."""
+    """A load factor, a settlement, a force or motion in time, and what goes with it."""
+    if given_in_time(case):
+        yield from alone_in_time(case)
+        return
     if case.objective is None:
         if given(case, ("live", "settlement")):
             yield from one_of(case, ("live", "settlement"))
@@ -205,9 +222,9 @@ def load_case(case: LoadCaseSection) -> Iterator[Finding]:
     for number, load in enumerate(case.dead or []):
         if load.facts.live_only:
             yield Finding("load-misplaced", "must be a live load", "dead", number, load.kind)
-    if case.pushover is not None:
+    if case.pushover is not None and not given_in_time(case):
         yield from _not_pushed(case)
-    if case.assessment is not None:
+    if case.assessment is not None and not given_in_time(case):
         yield from _not_assessed(case, case.assessment)
     live = list(enumerate(case.live or []))
     special = [(number, load.facts) for number, load in live if load.facts.live_only]

@@ -65,6 +65,12 @@ class Signal:
         return float(np.diff(self.times).max())
 
     @property
+    def usual_step(self) -> float:
+        """The median of the steps, s, without jumps."""
+        steps = np.diff(self.times)
+        return float(np.median(steps[steps > 0.0]))
+
+    @property
     def peak(self) -> float:
         """Greatest value without its sign."""
         return float(np.abs(self.values).max())

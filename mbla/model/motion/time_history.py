@@ -117,6 +117,11 @@ class TimeHistory:
     dead_levers: FloatArray
     dead_following: FloatArray
 
+    @property
+    def drivers(self) -> tuple[BaseMotion | ForceHistory, ...]:
+        """What drives the structure: motions, then forces."""
+        return (*self.motions, *self.forces)
+
     def base_acceleration(self, time: ArrayLike) -> FloatArray:
         """At times of any shape (...), (..., 3)."""
         return self._sum([motion.signal.value(time) for motion in self.motions], time)

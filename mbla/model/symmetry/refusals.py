@@ -12,8 +12,10 @@ from mbla.errors import Finding, KeyPath
 from mbla.model.loads.gravity import with_gravity
 from mbla.model.loads.load_kind import entries_of, load_kind
 from mbla.model.model import LoadCase, Model
+from mbla.model.motion.time_history import TimeHistory
 from mbla.model.symmetry.mirror import ACROSS, UNNAMED, ModelMirror
 from mbla.model.wording import named
+from mbla.questions.force import Objective
 
 
 def loads_across(deck: Deck, section: LoadCaseSection, path: KeyPath, mirror: ModelMirror) -> Iterator[Finding]:
@@ -55,11 +57,29 @@ def cannot_mirror(deck: Deck, model: Model, mirror: ModelMirror, path: KeyPath) 
         if section.ring is not None:
             words = "goes round the whole structure: give that, or the half of it with `through`, from ground to ground"
             yield Finding("symmetry-broken", f"{words} in the plane", "ties", number, "ring")
-    for name in dict.fromkeys(case.deck_name for case in model.load_cases if not case.question.collapses):
+    sought = [case.deck_name for case in model.load_cases if case.question.record(Objective) is not None]
+    for name in dict.fromkeys(sought):
         message = "a force through a cut of one half is no question of the other: give the whole structure"
         yield Finding("symmetry-broken", message, "load_cases", name, "objective")
     for case in model.load_cases:
         yield from _case_across(case, model, mirror)
+        if case.time_history is not None:
+            yield from _motion_across(case.deck_name, case.time_history, model, mirror)
+
+
+def _motion_across(name: str, history: TimeHistory, model: Model, mirror: ModelMirror) -> Iterator[Finding]:
+    """Motion of the base, and forces over time on blocks that the plane cuts, across it."""
+    path: KeyPath = ("load_cases", name, "time_history")
+    if any(abs(float(motion.direction @ mirror.normal)) > ACROSS for motion in history.motions):
+        words = f"moves the base across {mirror.label}, and the halves are no images then: give the whole structure"
+        yield Finding("symmetry-broken", words, *path, "motion")
+    for number, force in enumerate(history.forces):
+        loaded = np.abs(force.wrenches[:, :3] @ mirror.normal) > ACROSS
+        if (cut := np.flatnonzero(loaded & mirror.halves)).size:
+            words = (
+                f"acts across {mirror.label} on {named(cut, model.blocks.name)}, which is cut by it: nothing is left"
+            )
+            yield Finding("symmetry-broken", words, *path, "forces", number, "direction")
 
 
 def _case_across(case: LoadCase, model: Model, mirror: ModelMirror) -> Iterator[Finding]:

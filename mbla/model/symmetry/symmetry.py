@@ -20,6 +20,7 @@ from mbla.model.applied_load import AppliedLoad, joined_patches
 from mbla.model.fill.fill import CarriedFill
 from mbla.model.join import polyhedra_of
 from mbla.model.model import Ground, LoadCase, Model, Pushing
+from mbla.model.motion.time_history import TimeHistory
 from mbla.model.selectors import BlockSelection, check_overrides
 from mbla.model.settlement import with_reference
 from mbla.model.solids.blocks import BlockLabels, Blocks, carried_masses, join_labels
@@ -226,6 +227,33 @@ class _OnBoth:
             live_following_levers=self.levers(push.live_following_levers, push.live_following),
         )
 
+    def in_time(self, history: TimeHistory, case: LoadCase) -> TimeHistory:
+        """Forces over time, dead loads as they turn, and kinematic blocks with their images.
+
+        Motion of the base is along the plane. What is recorded stays on the side that the deck gives.
+        """
+        n_given, n_both = len(self.shift), self.count
+
+        def wrenches(given: FloatArray) -> FloatArray:
+            return np.hstack([self.loads(given[:, :6]), self.levers(given[:, 6:], given)])
+
+        def numbered(bodies: IntArray) -> IntArray:
+            return np.asarray(np.where(bodies < n_given, bodies, bodies - n_given + n_both))
+
+        return replace(
+            history,
+            forces=tuple(replace(force, wrenches=wrenches(force.wrenches)) for force in history.forces),
+            interfaces=tuple(replace(each, bodies=numbered(each.bodies)) for each in history.interfaces),
+            rigid=tuple(each for blocks in history.rigid for each in self._as_one(blocks)),
+            dead_levers=self.levers(history.dead_levers, case.dead_load - history.dead_following),
+            dead_following=self.loads(history.dead_following),
+        )
+
+    def _as_one(self, blocks: IntArray) -> list[IntArray]:
+        """A kinematic block and its image; one where the plane cuts a block of it."""
+        images = self.mirror.image_of[blocks]
+        return [np.union1d(blocks, images)] if self.mirror.halves[blocks].any() else [blocks, np.sort(images)]
+
 
 def _load_case(case: LoadCase, both: _OnBoth) -> LoadCase:
     """The load case on blocks and images."""
@@ -236,6 +264,7 @@ def _load_case(case: LoadCase, both: _OnBoth) -> LoadCase:
         dead=tuple(map(both.applied, case.dead)),
         live=tuple(map(both.applied, case.live)),
         pushover=None if case.pushover is None else both.pushing(case.pushover, case),
+        time_history=None if case.time_history is None else both.in_time(case.time_history, case),
     )
     if isinstance(case.question, Reaction):
         settling = Reaction(_settlement(case.question.settlement, both.mirror))

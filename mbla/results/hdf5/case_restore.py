@@ -13,13 +13,15 @@ from mbla.model.model import LoadCase
 from mbla.program.reductions import ProgramSize, ReductionOutcome, ReductionStep
 from mbla.program.reductions.steps import REDUCTIONS
 from mbla.results.assessment import NAMES, REMARKS, Assessment, Figure
+from mbla.results.hdf5.held import held
+from mbla.results.hdf5.history_restore import history_from
 from mbla.results.quantities.answers import ANSWERS, MOTIONS
-from mbla.results.quantities.registry import held as fields_held
 from mbla.results.results import CaseResult
 from mbla.solution.further.further import Further
 from mbla.solution.further.geometric_safety.geometric_safety import GeometricSafety
 from mbla.solution.further.sensitivity.slopes import Side, Slope
 from mbla.solution.further.soil_range.soil_path import SoilPath
+from mbla.solution.modes.modes import NO_MODES, Modes
 from mbla.solution.pushover.curve_rows import CurveEnd, CurveRow
 from mbla.solution.pushover.pushover import NOT_PUSHED, Pushover
 from mbla.solution.pushover.record import PushedRows, RowPoints
@@ -70,8 +72,10 @@ def case_from(load_case: LoadCase, get: dict[str, Any]) -> CaseResult:
         "path_by_stiffness": records(PathByStiffness, get, "path_by_stiffness"),
         "further": Further(
             pushover=_pushover(get),
+            time_history=history_from(get),
             sensitivity=records(Slope, get, "sensitivity") if "sensitivity/parameter" in get else (),
             geometric_safety=_geometric_safety(get),
+            modes=_modes(get),
             soil_range=records(SoilPath, get, "soil_range") if "soil_range/share" in get else (),
         ),
     }
@@ -125,16 +129,18 @@ def _geometric_safety(get: dict[str, Any]) -> GeometricSafety | None:
     return GeometricSafety(**values | {"verified": bool(values["verified"])})
 
 
+def _modes(get: dict[str, Any]) -> Modes:
+    if "modes/periods" not in get:
+        return NO_MODES
+    values = held(Modes, "modes", get)
+    if not (len(values["periods"]) and (values["periods"] > 0.0).all() and (np.diff(values["periods"]) <= 0.0).all()):
+        raise ValueError("periods of modes")
+    return Modes(**values | {"verified": bool(values["verified"])})
+
+
 def _choices(key: str) -> tuple[str, ...]:
     """Of a key of the analysis."""
     return get_args(AnalysisSection.model_fields[key].annotation)
-
-
-def held(kind: type, group: str, get: dict[str, Any]) -> dict[str, Any]:
-    """Fields of a dataclass that stand in a group of a load case, those that are there."""
-    prefix = f"{group}/" if group else ""
-    names = fields_held(kind, f"cases/*/{group}".removesuffix("/"))
-    return {field: get[prefix + name] for field, name in names.items() if prefix + name in get}
 
 
 def _messages(get: dict[str, Any], group: str) -> tuple[Message, ...]:

@@ -45,9 +45,11 @@ from mbla.results.listing.sections.model_words import (
     reduction_facts,
     settings_section,
 )
+from mbla.results.listing.sections.modes import modes_blocks
 from mbla.results.listing.sections.pushover import curve_blocks
 from mbla.results.listing.sections.sensitivity import sensitivity_blocks
 from mbla.results.listing.sections.tie_words import tie_force_blocks, tie_title
+from mbla.results.listing.sections.time_history import history_sections
 from mbla.results.listing.sections.unit_words import unit_blocks
 from mbla.results.listing.summary import warning_blocks
 from mbla.results.listing.text import counted, full_sentence, number, section_lines, text_of
@@ -79,10 +81,12 @@ def case_sections(assembly: Assembly, case: CaseResult) -> list[ListingSection]:
         found["Locking forces"] = lock_blocks(model, assembly.contacts, locking)
     found |= {
         "Earth pressure": soil_blocks(model, assembly.contacts, case),
-        "Load factor and bounds": figure_blocks(model, case),
+        "Load factor and bounds": figure_blocks(model, case) if case.load_case.has_load_factor else [],
         "Reductions": facts(reduction_facts(solution.reductions)),
         "Path of elastic joints": path_blocks(model, case),
         "Pushover": curve_blocks(model, case),
+        "Modes of vibration": modes_blocks(assembly, case),
+        **history_sections(assembly, case),
         "Geometric safety": geometric_safety_blocks(case),
         "Sensitivity": sensitivity_blocks(case),
         "Assessment": assessment_blocks(case),

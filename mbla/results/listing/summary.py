@@ -14,6 +14,7 @@ from mbla.results.listing.blocks import Block, Paragraph, paragraphs, table_of
 from mbla.results.listing.places import counted_blocks
 from mbla.results.listing.sections.assessment_words import assessment_words, code_verdict
 from mbla.results.listing.sections.mechanism_words import description_of, mechanism_summary
+from mbla.results.listing.sections.modes import modes_words
 from mbla.results.listing.sections.pushover import curve_words, no_curve_words
 from mbla.results.listing.text import counted, lines_of, number
 from mbla.results.listing.verdict_words import (
@@ -94,7 +95,7 @@ def _table(model: Model, cases: Sequence[CaseResult]) -> list[Block]:
     if not cases:
         return []
     heads, rows = answer_columns(model, cases)
-    if all(case.solution.flow_rule == "associative" for case in cases):
+    if all(case.solution.flow_rule == "associative" or case.load_case.time_history is not None for case in cases):
         heads.pop()
     rows = [
         [case.load_case.name, status_words(case.status), *row[: len(heads)]]
@@ -118,6 +119,7 @@ def _in_words(results: Results, case: CaseResult) -> list[Block]:
         soil_range_words(model, case),
         *said,
         curve_words(model, case) or no_curve_words(case),
+        modes_words(case) if case.load_case.has_load_factor else "",
         assessment_words(case),
     )
     return [Paragraph(text), *paragraphs(*further, detail=True)]

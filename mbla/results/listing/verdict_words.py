@@ -8,6 +8,8 @@ from mbla.model.model import LoadCase, Model
 from mbla.results.collapse.mechanics import live_load_in_g
 from mbla.results.findings import BROKEN, rounding_of
 from mbla.results.listing.answers import answer_figure, status_name
+from mbla.results.listing.history_verdict import history_verdict
+from mbla.results.listing.sections.modes import modes_words
 from mbla.results.listing.text import number, small
 from mbla.results.outcome import (
     answer_of,
@@ -44,6 +46,10 @@ def load_factor_words(model: Model, load_case: LoadCase, load_factor: float) -> 
 
 def verdict(model: Model, case: CaseResult) -> str:
     """The outcome of a case in one line; only a solved case reads as a collapse, or as the beginning of one."""
+    if case.load_case.question.group == "modes" and case.status is Status.SOLVED:
+        return f"{modes_words(case)}, verified"
+    if case.load_case.time_history is not None:
+        return history_verdict(model, case)
     mechanics = result_of(case)
     if mechanics is None:
         return _without_load_factor(model, case)

@@ -35,7 +35,16 @@ KINDS: dict[str, Kind] = {
     "ByteArray": "byte",
     **dict.fromkeys(("str", "list[str]", "tuple[str, ...]", "Sequence[str]", "Values", "Message"), "text"),
     **dict.fromkeys(
-        ("Literal['notice', 'warning']", "Status", "Standing", "Side", "ReductionOutcome", "TieState", "CurveEnd"),
+        (
+            "Literal['notice', 'warning']",
+            "Status",
+            "Standing",
+            "Side",
+            "ReductionOutcome",
+            "TieState",
+            "CurveEnd",
+            "HistoryEnd",
+        ),
         "text",
     ),
 }

@@ -21,6 +21,7 @@ UNITS: dict[UnitKind, str] = {
     "mass": "{mass}",
     "degree": "degree",
     "radian": "rad",
+    "frequency": "1/s",
     "stress": "{force}/{length}2",
     "bedding": "{force}/{length}3",
     "force": "{force}",
@@ -33,6 +34,14 @@ UNITS: dict[UnitKind, str] = {
     "motion": "1; 1/{length}",
     "displacement": "{length}; 1",
     "stiffness": "{force}2",
+    "spring": "{force}/{length}",
+    "speed": "{length}/s",
+    "acceleration": "{length}/s2",
+    "spin": "rad/s",
+    "speeds": "{length}/s; rad/s",
+    "impulse": "{force} s",
+    "angular_impulse": "{force} {length} s",
+    "momentum": "{force} s; {force} {length} s",
 }
 """kinds of units, in those of a deck"""
 HALVES: dict[UnitKind, tuple[UnitKind, UnitKind]] = {
@@ -40,6 +49,8 @@ HALVES: dict[UnitKind, tuple[UnitKind, UnitKind]] = {
     "velocities": ("velocity", "rotation"),
     "motion": ("1", "per_length"),
     "displacement": ("length", "1"),
+    "speeds": ("speed", "spin"),
+    "momentum": ("impulse", "angular_impulse"),
 }
 """units of which the first three components have one, the last three the other"""
 COMPONENTS = {
@@ -63,10 +74,12 @@ UNVERIFIED = {
     "words": "reasons and remarks in words",
     "standing": "that it stands only by self-stress, or that it is doubtful whether it stands",
     "falls": "which block falls first",
+    "modes": "of modes of vibration: which blocks joints do not hold",
     "history": "of elastic joints: the forces that they remember, and how stiff they are",
     "soil": "load factors of soil that slides with a dilatancy, beside the answer",
     "curve": "of a pushover: energies, errors of its load factors, where it jumps, which blocks fall without the rest, "
     "its end; areas, stiffness and history of contact points, and which body's face carries their frame",
+    "time": "of a structure in time: what happens between the states that are kept",
 }
 """kinds of statements by the words that declarations have for them, in the order in which they are told"""
 

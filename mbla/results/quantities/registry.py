@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from mbla.results.quantities import (  # noqa: F401
     answers,
+    base_motion,
     blocks,
     cases,
     further,
     interfaces,
     loads,
     model,
+    modes,
     moving,
     points,
     run,
@@ -18,6 +20,7 @@ from mbla.results.quantities import (  # noqa: F401
     steps,
     supports,
     ties,
+    time_history,
 )
 from mbla.results.quantities.group import DECLARED
 from mbla.results.quantities.quantity import Quantity

@@ -25,7 +25,9 @@ from mbla.results.record.case_parts import (
     residuals_of,
 )
 from mbla.results.record.earth_pressure import EARTH_PRESSURE, EarthPressure, earth_pressures
+from mbla.results.record.history_record import TIME_HISTORY
 from mbla.results.record.mechanism_json import MECHANISM
+from mbla.results.record.modes_record import MODES
 from mbla.results.record.objects import Object
 from mbla.results.record.scene import Scene
 from mbla.results.record.unit_stress import UNIT_STRESS
@@ -107,6 +109,7 @@ _PUSHOVER.fields(
     curve_end_error=Field("change of the displacement there with steps of twice the size", unit="length", rule="open"),
     curve_last_error=Field("change of the load factor there with steps of twice the size", rule="open"),
 )
+CASE.holds("time_history", TIME_HISTORY, "the structure in time; null where the deck does not ask")
 CASE.holds(
     "sensitivity",
     further.SENSITIVITY,
@@ -119,6 +122,7 @@ CASE.holds(
     "by how much the joints may shrink about their middles before the dead load falls; null where the deck does not "
     "ask",
 )
+CASE.holds("modes", MODES, "modes of vibration about the state at rest; null where not asked for, or there are none")
 CASE.holds(
     "soil_range",
     further.SOIL_RANGE,

@@ -34,6 +34,7 @@ ITEMS = {
     "sentence": "a sentence",
     "cluster": "a cluster",
     "interface": "number of an interface, from 0",
+    "mode": "a mode",
 }
 """what is along these dimensions, one by one; along others the same as along with them"""
 

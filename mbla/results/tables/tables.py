@@ -13,7 +13,7 @@ from typing import Any
 from mbla.errors import UsageError
 from mbla.results.files import OutputFolder
 from mbla.results.outcome import notices_of
-from mbla.results.quantities import further, series, solving, steps, supports, ties
+from mbla.results.quantities import further, series, solving, steps, supports, ties, time_history
 from mbla.results.quantities.group import Group
 from mbla.results.quantities.quantity import Quantity
 from mbla.results.quantities.registry import columns_of
@@ -77,7 +77,27 @@ PROGRAMS = _of_rows(solving.PROGRAMS, "each program that was solved for a load c
 ITERATIONS = _of_rows(solving.ITERATIONS, "each iteration of each program")
 PATH = _of_rows(solving.PATH, "each step of the path of elastic joints that was followed")
 CURVE = _of_rows(steps.CURVE, "each step of a pushover")
+MODES = _of_scenes("modes", "each mode of vibration", lambda scene: len(scene.solved.solution.further.modes))
+HISTORY = _of_scenes(
+    "history",
+    "each instant of the base and of each point that the deck names, of a structure in time",
+    lambda scene: _count(time_history.point_histories(scene)),
+)
+HISTORY_INTERFACES = _of_scenes(
+    "history_interfaces",
+    "each instant of each interface that the deck names, of a structure in time",
+    lambda scene: _count(time_history.interface_histories(scene)),
+)
+HISTORY_STEPS = _of_scenes(
+    "history_steps",
+    "each step of a structure in time",
+    lambda scene: len(scene.solved.solution.further.time_history.rows or ()),
+)
 SENSITIVITY = _of_rows(further.SENSITIVITY, "each parameter by which the load factor is known to change")
+
+
+def _count(found: time_history.PointHistories | time_history.InterfaceHistories | None) -> int:
+    return 0 if found is None else found.count
 
 
 def _positions(results: Results, cases: tuple[CaseResult, ...]) -> list[list[Any]]:
@@ -105,7 +125,7 @@ TABLES: dict[str, TableKind] = {
     kind.name: kind
     for kind in (
         *(CASES, BLOCKS, INTERFACES, POINTS, REACTIONS, TIES, PROGRAMS, ITERATIONS, PATH, CURVE),
-        *(SENSITIVITY, SERIES, NOTICES),
+        *(MODES, HISTORY, HISTORY_INTERFACES, HISTORY_STEPS, SENSITIVITY, SERIES, NOTICES),
     )
 }
 

@@ -137,7 +137,8 @@ def _not_asked(deck: Deck, case: CaseResult) -> Iterator[str]:
         "slopes": (solution.further.sensitivity or None, deck.analysis.sensitivity is not False),
         "a geometric factor of safety": (solution.further.geometric_safety, deck.analysis.geometric_safety),
         "a range by the dilatancy of soil": (solution.further.soil_range or None, deck.analysis.soil_range),
-        "a verdict on standing": (solution.standing, settings.standing),
+        "modes of vibration": (len(solution.further.modes) or None, load_case.modes > 0),
+        "a verdict on standing": (solution.standing, settings.standing or not load_case.has_load_factor),
         "a state with torsion": (solution.torsion, settings.by_torsion),
         "a least state": (solution.least, settings.by_elastic_path and settings.search > 0.0),
         "the answer of a level table": (solution.level, load_case.question.tilts),
@@ -156,6 +157,8 @@ def _limits(found: Found, deck: Deck, assembly: Assembly, case: CaseResult) -> N
         against = why_no_geometric_safety(assembly.model, assembly.contacts, case.load_case, deck.analysis)
         if not against:
             _missing(found, "geometric factor of safety", case, "geometric-safety-not-done")
+    if case.load_case.modes and not len(solution.further.modes):
+        _missing(found, "modes of vibration", case, "no-modes")
     _soil_range(found, deck, assembly.model, case)
 
 

@@ -21,10 +21,13 @@ from mbla.results.results import CaseResult
 from mbla.results.verification.asked import by_normality
 from mbla.solution.further.geometric_safety.find import no_geometric_safety, why_no_geometric_safety
 from mbla.solution.further.sensitivity.sensitivity import no_sensitivity, why_no_sensitivity
+from mbla.solution.modes.checked import modes_remarks, modes_wrong
 from mbla.solution.pushover.curve import pushover_remarks
 from mbla.solution.pushover.start import no_pushover, why_not_pushed
 from mbla.solution.sequence.tilting_table import NOT_PROVED_BETWEEN
 from mbla.solution.solution import WITH_VALUE, Solution, Status
+from mbla.solution.time_history.judged import history_remarks
+from mbla.solution.verification.modes import checked_modes
 from mbla.solution.verification.tilting_table import GOOD
 
 
@@ -71,6 +74,10 @@ def remarks_found_again(deck: Deck, assembly: Assembly, case: CaseResult) -> tup
         if solution.further.pushover.rows is not None and solution.mechanics is not None:
             found += pushover_remarks(model, load_case, solution, solution.further.pushover)
         found += [no_pushover(against)] if against else []
+    if len(solution.further.modes):
+        found += modes_remarks(load_case, solution.further.modes)
+        found += [modes_wrong(words) for words in checked_modes(assembly, load_case, solution.further.modes)[1]]
+    found += history_remarks(model, load_case, solution.further.time_history)
     if deck.analysis.sensitivity is not False:
         against = why_no_sensitivity(load_case, solution, case.checks)
         found += [no_sensitivity(against)] if against else []

@@ -53,6 +53,14 @@ OTHERS: dict[tuple[str, str], tuple[Quantity, ...]] = {
         integer("state", "0 holds, 1 yields, 2 slack, 3 fill at its passive limit, 4 at its active one"),
         integer("figures", "what forces and motion are, as of interfaces"),
     ),
+    ("modes", "points"): (
+        real(
+            "mode_N",
+            "displacement in mode N as drawn; Warp By Vector plays it with scale factors from -1 to 1",
+            "length",
+            "axis",
+        ),
+    ),
     ("supports", "cells"): (
         integer("kind", "0 ground plane, 1 fixed block, 2 guided block"),
         integer("body", "block, or number of blocks + number of the ground plane"),

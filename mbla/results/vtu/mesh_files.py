@@ -29,6 +29,7 @@ from mbla.results.vtu.meshes import (
     frame_mesh,
     hinges_mesh,
     interfaces_mesh,
+    modes_mesh,
     thrust_mesh,
 )
 from mbla.results.vtu.ties import ties_mesh
@@ -43,6 +44,7 @@ MESHES: dict[str, Callable[[Scene], Mesh | None]] = {
     "hinges": hinges_mesh,
     "loads": loads_mesh,
     "ties": ties_mesh,
+    "modes": modes_mesh,
 }
 """by what the name of the file ends in, ``STEM_CASE_kind.vtu``; None where a scene has none"""
 

@@ -18,7 +18,7 @@ from mbla.model.geometry.meshio_files import write_mesh
 from mbla.model.solids.blocks import Blocks
 from mbla.results.collapse.collapse import kept
 from mbla.results.collapse.interface_modes import InterfaceMode
-from mbla.results.collapse.motion import mean_displacements, motion_scale, moved_vertices
+from mbla.results.collapse.motion import mean_displacements, motion_scale, moved_vertices, vertex_displacements
 from mbla.results.collapse.thrust import points_to_draw
 from mbla.results.record.scene import Scene
 from mbla.results.vtu.arrays import Arrays, arrays_of
@@ -62,6 +62,18 @@ def frame_mesh(scene: Scene, motion: FloatArray) -> Mesh:
     vertices = moved_vertices(blocks, motion)
     moved = {"displacement": vertices - blocks.vertices}
     return _of_blocks(blocks, vertices, moved, arrays_of(scene, "frames", "cells"))
+
+
+def modes_mesh(scene: Scene) -> Mesh | None:
+    """Blocks as polyhedra with the shape of every mode of vibration as drawn; None where there are none."""
+    if scene.case is None or not len(scene.case.solution.further.modes):
+        return None
+    model, shapes = scene.model, scene.case.solution.further.modes.shapes
+    data: Arrays = {
+        f"mode_{number}": motion_scale(model, shape) * vertex_displacements(model.blocks, shape)
+        for number, shape in enumerate(shapes, 1)
+    }
+    return _of_blocks(model.blocks, model.blocks.vertices, data, {})
 
 
 def _of_blocks(blocks: Blocks, points: FloatArray, point_data: Arrays, cell_data: Arrays) -> Mesh:

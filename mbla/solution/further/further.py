@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 from mbla.solution.further.geometric_safety.geometric_safety import GeometricSafety
 from mbla.solution.further.sensitivity.slopes import Slope
 from mbla.solution.further.soil_range.soil_path import SoilPath
+from mbla.solution.modes.modes import NO_MODES, Modes
 from mbla.solution.pushover.pushover import NOT_PUSHED, Pushover
 from mbla.solution.time_history.history import NO_HISTORY, TimeHistoryResult
 
@@ -24,6 +25,7 @@ class Further:
     geometric_safety : of the dead load alone; None without
     time_history     : the structure in time; without rows where none was asked for
     soil_range       : paths on which soil of cells slides with little dilatancy and with much; empty without
+    modes            : of vibration about the state at rest; none where not asked for, or with the reason
     """
 
     pushover: Pushover = NOT_PUSHED
@@ -31,6 +33,7 @@ class Further:
     geometric_safety: GeometricSafety | None = field(default=None, compare=False)
     soil_range: tuple[SoilPath, ...] = ()
     time_history: TimeHistoryResult = NO_HISTORY
+    modes: Modes = field(default=NO_MODES, compare=False)
 
 
 NOTHING_FURTHER = Further()

@@ -17,6 +17,7 @@ from mbla.program.build import build_program
 from mbla.questions.angle import Angle
 from mbla.questions.force import Force
 from mbla.solution.cone_solvers.cone_solution import Log
+from mbla.solution.sequence.at_rest import at_rest_alone
 from mbla.solution.sequence.objective import end_of_force
 from mbla.solution.sequence.settlement import settled
 from mbla.solution.sequence.solved_case import AnalysisSequence, SolvedCase
@@ -41,8 +42,10 @@ def answered(
     settings : of the analysis that the deck asks for
     states   : of stress-free assemblies that are known from load cases before
     """
-    own, sequence = settings_for(load_case, settings), sequence_of(assembly, load_case, settings)
     states = StressFreeStates() if states is None else states
+    if not load_case.has_load_factor:
+        return at_rest_alone(assembly, load_case, settings, log, states)
+    own, sequence = settings_for(load_case, settings), sequence_of(assembly, load_case, settings)
     answer = answer_of(sequence, lambda case: analysed(assembly, case, own, log, states))
     if not (settings.analysis.soil_range and assembly.model.soils and load_case.question.collapses):
         return answer

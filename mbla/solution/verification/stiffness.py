@@ -28,13 +28,13 @@ LIGHT = 1e-8
 
 def relative_stiffness(model: Model, contacts: Contacts, load_case: LoadCase) -> FloatArray:
     """Normal stiffness of the points but for one common factor, (n_points,)."""
-    areas, units = _areas(contacts), _units(model, contacts, load_case)
+    areas, units = areas_of_stiffness(contacts), _units(model, contacts, load_case)
     kinds, kind = np.unique(units, return_inverse=True)
     means = np.array([areas[units == unit].mean() for unit in kinds])
     return np.asarray(areas / means[kind] * units**2)
 
 
-def _areas(contacts: Contacts) -> FloatArray:
+def areas_of_stiffness(contacts: Contacts) -> FloatArray:
     """Area that each point is as stiff as, (n_points,)."""
     of, corners = contacts.interface_of_point, np.diff(contacts.point_start)
     first, count = contacts.point_start[:-1][of], corners[of]

@@ -21,11 +21,13 @@ from mbla.process.stopwatch import stage
 from mbla.questions.angle import Angle
 from mbla.questions.load_factor import LOAD_FACTOR
 from mbla.solution.full_model.lifted import model_of, rule_of, solution_on_bodies
+from mbla.solution.modes.modes import NO_MODES
 from mbla.solution.solution import Checks, Solution, Standing, Status
 from mbla.solution.verification.case import LoadedModel
 from mbla.solution.verification.elastic_law import elastic_residual
 from mbla.solution.verification.least import least_check
 from mbla.solution.verification.lock import lock_failures
+from mbla.solution.verification.modes import checked_modes
 from mbla.solution.verification.residuals import residuals_of
 from mbla.solution.verification.standing import standing_failures
 from mbla.solution.verification.strengths import point_strengths
@@ -65,6 +67,10 @@ def verify(assembly: Assembly, load_case: LoadCase, solution: Solution) -> Check
     bodies = assembly.of(load_case)
     of_bodies, apart = solution_on_bodies(solution, bodies)
     checks = _verify(*_claimed(bodies, load_case), of_bodies)
+    if load_case.question.group == "modes" and solution.further.modes is not NO_MODES:
+        _, wrong = checked_modes(assembly, load_case, solution.further.modes)
+        failures = tuple(Message("modes-not-verified", words) for words in wrong)
+        checks = replace(checks, verified=checks.verified and not wrong, failures=(*checks.failures, *failures))
     if not apart <= APART:
         words = f"blocks that are glued to each other move apart, by {apart:.2g} of the largest motion"
         failure = Message("glued-blocks-part", words)

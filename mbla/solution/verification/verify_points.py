@@ -106,9 +106,9 @@ def _checked_without_mechanics(case: LoadedModel, solution: Solution) -> Checks:
     """Of a solution without forces and mechanism: of its certificate where it has one; all figures but the bounds of
     associative flow are NaN.
     """
-    failures: tuple[Message, ...] = (
-        (Message("not-verified", solution.reason),) if solution.status is not Status.UNBOUNDED else ()
-    )
+    stands = solution.status in WITH_VALUE and not case.load_case.has_load_factor  # which is verified by itself
+    claims = stands or solution.status is Status.UNBOUNDED
+    failures: tuple[Message, ...] = () if claims else (Message("not-verified", solution.reason),)
     if solution.certificate is not None:
         failures = certificate_failures(case, (solution.certificate, solution.certificate_motions))
     nan, bounds = np.nan, _bounds_of(case, solution)
@@ -122,8 +122,8 @@ def verified_status(solution: Solution, checks: Checks) -> Status:
         if solution.status in (Status.NO_EQUILIBRIUM, Status.UNBOUNDED) and not checks.verified:
             return Status.NOT_VERIFIED
         return solution.status
-    if checks.verified and solution.status is Status.SOLVED:
-        return Status.SOLVED
+    if checks.verified and (solution.status is Status.SOLVED or solution.mechanics is None):
+        return solution.status
     measures = [checks.equilibrium_residual, checks.yield_violation, abs(checks.live_power - 1.0)]
     if np.isnan(checks.elastic_residual):
         measures += [checks.penetration, checks.complementarity_residual, checks.power_balance]

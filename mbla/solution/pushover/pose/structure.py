@@ -18,9 +18,7 @@ from mbla.model.pose import Pose, moved_case, moved_model
 from mbla.model.ties.moved import moved_ties
 from mbla.model.ties.ties import Ties
 from mbla.program.reductions.scene import refined
-
-SAG = 1e-6
-"""Overlap of two blocks under the weight of one, over the size of a block: 1e10 Pa/m for blocks of half a metre."""
+from mbla.solution.law.stiffness_of_joints import areas_of_pairs, default_stiffness, mean_size, pair_numbers
 
 
 @dataclass(frozen=True)
@@ -53,13 +51,7 @@ class PushedStructure:
         """From contacts as built."""
         model, solids = assembly.model.of_case(case), assembly.glued(case)
         case = replace(case, live_load=case.question.pushed(case.live_load))
-        numbers = _numbers(solids.contacts.bodies, _n_bodies(solids.model))
-        pairs, place = np.unique(numbers, return_inverse=True)
-        areas = np.asarray(np.bincount(place.ravel(), solids.contacts.areas, len(pairs)), dtype=np.float64)
-        free = ~solids.model.fixed
-        loads = np.linalg.norm(case.dead_load[:, :3], axis=1)[~model.fixed]
-        loads = loads if loads.any() else np.linalg.norm(case.live_load[:, :3], axis=1)[~model.fixed]
-        weight, size = float(loads[loads > 0.0].mean()), float(solids.model.blocks.sizes[free].mean())
+        pairs, areas = areas_of_pairs(solids)
         return PushedStructure(
             model=model,
             case=case,
@@ -67,7 +59,7 @@ class PushedStructure:
             search=MovedSearch(model, assembly.contacts, section),
             pairs=pairs,
             areas=areas,
-            stiffness=weight / (float(areas.mean()) * SAG * size),
+            stiffness=default_stiffness(model, case, solids),
             flow_rule=flow_rule,
             of_laws=np.ones((len(model.joints), 2)),
         )
@@ -82,7 +74,7 @@ class PushedStructure:
     @property
     def size(self) -> float:
         """Mean of the bodies that may move, m."""
-        return float(self.solids.model.blocks.sizes[~self.solids.model.fixed].mean())
+        return mean_size(self.solids)
 
     @property
     def n_solids(self) -> int:
@@ -141,7 +133,7 @@ class PushedStructure:
         by their areas.
         """
         contacts = touching.contacts
-        numbers = _numbers(contacts.bodies, _n_bodies(self.solids.model))
+        numbers = pair_numbers(contacts.bodies, self.solids.model)
         row = np.minimum(np.searchsorted(self.pairs, numbers), len(self.pairs) - 1)
         of_pair = np.where(self.pairs[row] == numbers, self.areas[row], self.areas.mean())
         pair, place = np.unique(numbers, return_inverse=True)
@@ -170,11 +162,3 @@ class PushedStructure:
 
 FEWEST = 4
 """Points over which the stiffness of two solids is spread at least: an edge is no stiffer than half a face."""
-
-
-def _n_bodies(model: Model) -> int:
-    return len(model.blocks) + len(model.grounds)
-
-
-def _numbers(bodies: IntArray, n_bodies: int) -> IntArray:
-    return np.asarray(bodies[:, 0] * n_bodies + bodies[:, 1])

@@ -1,0 +1,68 @@
+"""How a structure vibrates about its state of rest: its first period.
+
+Nothing is multiplied: there is no load factor λ.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import ClassVar
+
+from mbla.arrays import FloatArray
+from mbla.deck.units import Units
+from mbla.questions.figures import significant
+from mbla.questions.question import Question
+
+NO_FACTOR = "it vibrates, without a load factor"
+
+
+@dataclass(frozen=True)
+class FirstPeriod(Question):
+    """The longest period.
+
+    period : s; nan before it is known
+    """
+
+    period: float = math.nan
+    name: ClassVar[str] = "modes"
+    group: ClassVar[str] = "modes"
+    paths: ClassVar[tuple[str, str, str]] = ("modes.period", "modes.period", "modes.period")
+    multiplies: ClassVar[bool] = False
+    collapses: ClassVar[bool] = False
+    title: ClassVar[str] = "first period"
+    applied: ClassVar[str] = "vibrates"
+    factors: ClassVar[str] = "first periods"
+    control: ClassVar[str] = "point"
+    powers: ClassVar[tuple[str, str]] = ("vibration", "dead load")
+    no_equilibrium: ClassVar[str] = "no equilibrium: the structure does not stand under its dead load"
+    no_target: ClassVar[str] = f"{NO_FACTOR}; choose another load case, or mbla sweep"
+    no_safety: ClassVar[str] = NO_FACTOR
+    no_sensitivity = NO_FACTOR
+    kind = "s"
+
+    def value(self, load_factor: float) -> float:
+        """Whatever λ is."""
+        return self.period
+
+    def bounds(self, static: float, kinematic: float, mechanism: FloatArray | None) -> tuple[float, float]:
+        """None."""
+        return math.nan, math.nan
+
+    def told(self, value: float, units: Units) -> str:
+        """``a first period of 0.21 s``."""
+        return f"a {self.title} of {significant(value)} s"
+
+    def moves(self, *, by_path: bool) -> str:
+        """About its state of rest."""
+        return "vibrates"
+
+    @property
+    def unbounded(self) -> str:
+        """Of a structure that no joint holds back."""
+        return "no first period: a block moves without any force"
+
+    @property
+    def forces_drawn(self) -> str:
+        """Those at rest."""
+        return "contact forces at rest under dead load"

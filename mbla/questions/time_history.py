@@ -1,0 +1,74 @@
+"""How far a structure moves in time: the greatest displacement of a block relative to the base.
+
+Nothing is multiplied: there is no load factor λ, whatever it is the figure is that of the time history.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import ClassVar
+
+from mbla.arrays import FloatArray
+from mbla.deck.units import Units
+from mbla.questions.figures import significant
+from mbla.questions.question import Question
+
+NO_FACTOR = "it moves in time, without a load factor"
+
+
+@dataclass(frozen=True)
+class PeakDisplacement(Question):
+    """The peak displacement, and between which it lies where more than one step was followed.
+
+    peak, lower, upper : in the deck's unit of length; nan before it is known
+    """
+
+    peak: float = math.nan
+    lower: float = math.nan
+    upper: float = math.nan
+    name: ClassVar[str] = "time_history"
+    group: ClassVar[str] = "time_history"
+    paths: ClassVar[tuple[str, str, str]] = ("time_history.peak", "time_history.lower", "time_history.upper")
+    multiplies: ClassVar[bool] = False
+    collapses: ClassVar[bool] = False
+    title: ClassVar[str] = "peak displacement"
+    applied: ClassVar[str] = "moves in time"
+    factors: ClassVar[str] = "peak displacements"
+    control: ClassVar[str] = "point"
+    powers: ClassVar[tuple[str, str]] = ("motion of the base and forces over time", "dead load")
+    no_equilibrium: ClassVar[str] = "no equilibrium: the structure does not stand under its dead load"
+    no_target: ClassVar[str] = f"{NO_FACTOR}; choose another load case, or mbla sweep"
+    no_safety: ClassVar[str] = NO_FACTOR
+    no_sensitivity = NO_FACTOR
+    kind = "length"
+
+    def value(self, load_factor: float) -> float:
+        """Whatever λ is."""
+        return self.peak
+
+    def bounds(self, static: float, kinematic: float, mechanism: FloatArray | None) -> tuple[float, float]:
+        """By the steps that were followed."""
+        return self.lower, self.upper
+
+    def unit(self, units: Units) -> str:
+        """Of length."""
+        return units.length
+
+    def told(self, value: float, units: Units) -> str:
+        """``a peak displacement of 0.034 m``."""
+        return f"a {self.title} of {significant(value)} {units.length}"
+
+    def moves(self, *, by_path: bool) -> str:
+        """As its base moves it."""
+        return "moves"
+
+    @property
+    def unbounded(self) -> str:
+        """Of a structure that falls."""
+        return "no peak: it falls"
+
+    @property
+    def forces_drawn(self) -> str:
+        """Those of a state."""
+        return "contact forces of the state shown"

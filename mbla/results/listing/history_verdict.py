@@ -1,0 +1,99 @@
+"""What a structure does in time, in one sentence."""
+
+from __future__ import annotations
+
+import math
+
+from mbla.model.model import Model
+from mbla.results.history_figures import HistoryFigures, history_figures
+from mbla.results.listing.text import counted
+from mbla.results.results import CaseResult
+from mbla.solution.pushover.followed import STEP_DEPENDENCE
+from mbla.solution.solution import Status
+from mbla.solution.time_history.step_rows import HistoryEnd
+
+NOTABLE = 1e-3
+"""of the size of the block that moves most: openings and slips below it are not seen, as those of elastic joints"""
+BOTH = 1.0 / 3.0
+"""of the greater of opening and slip, from which the lesser is said as well"""
+MOVING = 0.1
+"""of the peak, by which the displacement at the end still varies where that is said"""
+COMES_BACK = 0.5
+"""of the peak, up to which what stays is said as what it comes back to"""
+
+
+def history_verdict(model: Model, case: CaseResult) -> str:
+    """``rocks, peak 0.034 m at 2.1 s, comes back to 0.001 m; no block falls``; ``wall[3] falls at 3.4 s``."""
+    found, asked = case.solution.further.time_history, case.load_case.time_history
+    figures = history_figures(found)
+    if case.status is Status.NO_EQUILIBRIUM or figures is None or asked is None:
+        return case.load_case.question.no_equilibrium
+    told = motion_words(model, figures, found.end)
+    if case.status is Status.TIME_LIMIT:
+        begin = "NOT SOLVED (the time ran out)" if found.end is HistoryEnd.LATE else "NOT SOLVED (stopped)"
+        return f"{begin}: followed to {_seconds(figures.lasted)} of {_seconds(asked.duration)}; up to there it {told}"
+    if case.status is Status.NOT_VERIFIED:
+        return f"NOT VERIFIED: what was followed does not hold; it says that it {told}"
+    return told if case.status is Status.SOLVED else f"{told}; approximate"
+
+
+def motion_words(model: Model, figures: HistoryFigures, end: HistoryEnd) -> str:
+    """What moves and how far, what falls, what stays."""
+    if figures.falls >= 0:
+        others = f", and {counted(figures.fallen - 1, 'block')} after it" if figures.fallen > 1 else ""
+        falls = f"{_name(model, figures.falls)} falls at {_seconds(figures.fall_time)}"
+        return f"{_manner(model, figures)}, and {falls}{others}"
+    peak = f"{peak_words(model, figures)} at {_seconds(figures.peak_time)}{_where(model, figures)}"
+    if _is_still(model, figures):
+        return f"stays still: it moves by at most {peak}"
+    words = f"{_manner(model, figures)}, peak {peak}"
+    if end is HistoryEnd.DISPLACED:
+        return f"{words}, where it ends as asked; no block has fallen"
+    return f"{words}, {_rest_words(model, figures)}; no block falls"
+
+
+def peak_words(model: Model, figures: HistoryFigures) -> str:
+    """``0.034 m``; ``0.032 to 0.034 m`` where half of the step gives another one."""
+    length = model.units.length
+    if not figures.half_step > STEP_DEPENDENCE:
+        return f"{figures.peak:.3g} {length}"
+    least, most = figures.range_of_peak
+    return f"{least:.3g} to {most:.3g} {length}"
+
+
+def _rest_words(model: Model, figures: HistoryFigures) -> str:
+    length, rest, wander = model.units.length, figures.residual, figures.residual_uncertainty
+    if wander > MOVING * figures.peak:
+        return f"still moves at the end, {rest:.2g} {length} off by {wander:.1g} either way"
+    if rest <= COMES_BACK * figures.peak:
+        return f"comes back to {rest:.2g} {length}"
+    return f"{rest:.2g} {length} of displacement stay"
+
+
+def _manner(model: Model, figures: HistoryFigures) -> str:
+    """Whether joints open or slip more."""
+    least = NOTABLE * float(model.blocks.sizes[figures.peak_block])
+    opens, slips = figures.opening, figures.slip
+    if max(opens, slips) <= least:
+        return "moves"
+    if min(opens, slips) > max(least, BOTH * max(opens, slips)):
+        return "rocks and slides"
+    return "rocks" if opens >= slips else "slides"
+
+
+def _is_still(model: Model, figures: HistoryFigures) -> bool:
+    least = NOTABLE * float(model.blocks.sizes[figures.peak_block])
+    return max(figures.opening, figures.slip, figures.peak) <= least
+
+
+def _where(model: Model, figures: HistoryFigures) -> str:
+    """The block, where there are several that move."""
+    return f" ({_name(model, figures.peak_block)})" if len(model.free) > 1 else ""
+
+
+def _name(model: Model, block: int) -> str:
+    return model.blocks.name(block)
+
+
+def _seconds(time: float) -> str:
+    return "-" if math.isnan(time) else f"{time:.4g} s"

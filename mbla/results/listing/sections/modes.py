@@ -1,0 +1,70 @@
+"""Modes of vibration in words and as a table."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from mbla.assembly.assembly import Assembly
+from mbla.results.listing.blocks import MOST_ROWS, Block, Paragraph, apart, table_of
+from mbla.results.listing.text import counted, number
+from mbla.results.results import CaseResult
+from mbla.solution.modes.modes import Modes
+
+SMALL = 5e-5
+"""share of mass that is nothing as it is written"""
+
+
+def modes_words(case: CaseResult) -> str:
+    """The first period, in a sentence; why there is none where modes are asked for, else nothing."""
+    modes = case.solution.further.modes
+    if not len(modes):
+        return next((str(each) for each in case.solution.remarks if each.identifier == "no-modes"), "")
+    along = int(modes.masses[0].argmax())
+    share = f"{100.0 * modes.masses[0, along]:.3g} % of the mass takes part along {'xyz'[along]}"
+    said = f"vibrates with a first period of {number(modes.period)} s, {number(float(modes.frequencies[0]))} Hz"
+    return f"{said}, in which {share if modes.masses[0, along] > SMALL else 'no mass takes part on the whole'}"
+
+
+def modes_blocks(assembly: Assembly, case: CaseResult) -> list[Block]:
+    """How stiff joints are, and a row for each mode; nothing without any."""
+    modes = case.solution.further.modes
+    if not len(modes):
+        return []
+    known = "verified" if modes.verified else "NOT verified"
+    together = ", ".join(
+        f"{100.0 * share:.3g} % along {axis}" for axis, share in zip("xyz", modes.masses.sum(0), strict=True)
+    )
+    says = f"{counted(len(modes), 'mode')} of vibration about the state at rest under the dead load, {known}. "
+    says += f"Of the mass that moves they have {together}. {_stiffness(assembly, modes)}"
+    shown = modes.masses[:MOST_ROWS]
+    rows = [
+        [str(row + 1), number(float(period)), number(float(1.0 / period)), *map(_share, shares), *map(_share, so_far)]
+        for row, (period, shares, so_far) in enumerate(
+            zip(modes.periods[:MOST_ROWS], shown, modes.masses.cumsum(axis=0)[:MOST_ROWS], strict=True)
+        )
+    ]
+    head = ["mode", "period [s]", "frequency [Hz]", "mass x", "mass y", "mass z", "sum x", "sum y", "sum z"]
+    return [Paragraph(says), *apart(table_of(head, rows, left=0, total=len(modes)))]
+
+
+def _stiffness(assembly: Assembly, modes: Modes) -> str:
+    """How stiff joints are, and by how much they give at rest."""
+    units = assembly.model.units
+    of_joints = modes.stiffness[assembly.contacts.areas > 0.0][:, 0]
+    least, most = float(of_joints.min()), float(of_joints.max())
+    stiff = number(least) if np.isclose(least, most, rtol=1e-9) else f"{number(least)} to {number(most)}"
+    names = assembly.contacts.joint_names
+    given = all(not np.isnan(assembly.model.joints[name].normal_stiffness) for name in names)
+    source = (
+        "" if given else ", next to rigid where the deck gives no stiffness: longer periods need that of the joints"
+    )
+    pressed = float(modes.pressed @ assembly.contacts.areas / assembly.contacts.areas.sum())
+    return (
+        f"Joints have a stiffness of {stiff} {units.force}/{units.length}3{source}; at rest blocks sag by up to "
+        f"{number(modes.sag)} {units.length}, and {100.0 * pressed:.3g} % of the area of joints presses."
+    )
+
+
+def _share(share: float) -> str:
+    """A share of mass, four digits behind the point."""
+    return f"{share:.4f}" if share > SMALL else "0"

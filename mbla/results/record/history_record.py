@@ -1,0 +1,182 @@
+"""A structure in time as an object of the JSON record; what it did only where that is a result."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from mbla.arrays import FloatArray
+from mbla.model.motion.time_history import BaseMotion
+from mbla.results.history_figures import HistoryFigures, drift_of
+from mbla.results.listing.history_verdict import history_verdict
+from mbla.results.outcome import history_of
+from mbla.results.quantities.group import Field
+from mbla.results.quantities.time_history import HALF_STEP, RESULT, followed
+from mbla.results.record.objects import Object
+from mbla.results.record.scene import Scene
+from mbla.solution.time_history.history import RecordedHistories
+from mbla.solution.time_history.step_rows import StepRows
+
+TIME_HISTORY = Object[Scene](
+    *(quantity for quantity in RESULT.quantities if quantity.name != "seconds"),
+    owner=lambda scene: None if followed(scene) is None else scene,
+)
+ENERGIES, POINT, MOTION = Object[StepRows](), Object["PointPeaks"](), Object[BaseMotion]()
+
+
+@TIME_HISTORY.key()
+def verdict(scene: Scene) -> str:
+    """What the structure does, in one sentence."""
+    return history_verdict(scene.model, scene.solved)
+
+
+def _declare(name: str, kind: str, words: str, of: Callable[[Scene, HistoryFigures], object], unit: str = "1") -> None:
+    """A figure of what it did; null where that is no result."""
+
+    def figure(scene: Scene) -> object:
+        found = history_of(scene.solved)
+        return None if found is None else of(scene, found)
+
+    figure.__annotations__["return"] = f"{kind} | None"
+    TIME_HISTORY.key(name=name, words=words, unit=unit)(figure)
+
+
+def _block(scene: Scene, number: int) -> str | None:
+    return scene.model.blocks.name(number) if number >= 0 else None
+
+
+_declare(
+    "peak",
+    "float",
+    "greatest displacement of the centre of a block relative to the base",
+    lambda _, f: f.peak,
+    "length",
+)
+_declare("lower", "float", "least peak with the step and half of it", lambda _, f: f.range_of_peak[0], "length")
+_declare("upper", "float", "greatest peak with these", lambda _, f: f.range_of_peak[1], "length")
+_declare("peak_time", "float", "when that was", lambda _, f: f.peak_time, "time")
+_declare("peak_block", "str", "which block", lambda scene, f: _block(scene, f.peak_block))
+_declare(
+    "drift",
+    "float",
+    "the peak over the height of that centre above the lowest support",
+    lambda scene, f: drift_of(scene.assembly, scene.solved.load_case, f),
+)
+_declare("residual", "float", "greatest displacement at the end", lambda _, f: f.residual, "length")
+_declare(
+    "residual_uncertainty", "float", "by how much that still varied", lambda _, f: f.residual_uncertainty, "length"
+)
+_declare("falls", "str", "block that falls first, by half of its height", lambda scene, f: _block(scene, f.falls))
+_declare("fall_time", "float", "when it had", lambda _, f: f.fall_time, "time")
+_declare("fallen", "int", "blocks that have fallen", lambda _, f: f.fallen)
+_declare("opening", "float", "greatest opening of an interface", lambda _, f: f.opening, "length")
+_declare("slip", "float", "greatest slip of an interface", lambda _, f: f.slip, "length")
+_declare("lasted", "float", "how long it was followed", lambda _, f: f.lasted, "time")
+_declare("steps", "int", "steps of the length that the deck asks for", lambda _, f: f.steps)
+_declare("halved", "int", "steps that were halved", lambda _, f: f.halved)
+_declare("small_steps", "int", "steps that were made in the place of one of the deck", lambda _, f: f.small_steps)
+_declare("missed", "int", "smallest steps that did not converge", lambda _, f: f.missed)
+_declare("factorisations", "int", "factorisations", lambda _, f: f.factorisations)
+_declare("balance", "float", "error of the balance of energies over the largest of them", lambda _, f: f.balance)
+_declare("change_by_half_step", "float", "change of the peak with half of the step, over it", lambda _, f: f.half_step)
+TIME_HISTORY.holds("half_step", HALF_STEP, "the same with half of the step; null where not asked for")
+
+
+@TIME_HISTORY.key(inside=ENERGIES)
+def energies(scene: Scene) -> StepRows | None:
+    """At the end, those that were taken and those that were given; null where that is no result."""
+    return None if history_of(scene.solved) is None else scene.solved.solution.further.time_history.rows
+
+
+def _declare_energy(name: str, words: str) -> None:
+    @ENERGIES.key(name=name, words=words, unit="moment")
+    def energy(rows: StepRows) -> float:
+        """At the end."""
+        return float(getattr(rows, name)[-1])
+
+
+for _name, _words in {
+    "kinetic": "of motion in the frame of the base",
+    "potential": "gained by the dead load",
+    "elastic": "stored in joints and ties, a part of what they took",
+    "contacts": "taken across joints",
+    "friction": "taken along joints",
+    "ties": "taken by ties",
+    "base": "work of the motion of the base",
+    "forces": "work of forces over time, and of dead loads that turn",
+    "turning": "numerical, of bodies that turn",
+}.items():
+    _declare_energy(_name, _words)
+
+
+@TIME_HISTORY.key("a motion", inside=MOTION)
+def motions(scene: Scene) -> list[BaseMotion]:
+    """What moves the base."""
+    asked = scene.solved.load_case.time_history
+    return [] if asked is None else list(asked.motions)
+
+
+MOTION.fields(
+    BaseMotion,
+    words=Field("in words"),
+    peak_acceleration=Field("greatest acceleration", unit="acceleration"),
+    peak_velocity=Field("greatest velocity", unit="speed"),
+    peak_displacement=Field("greatest displacement", unit="length"),
+)
+
+
+@dataclass(frozen=True)
+class PointPeaks:
+    """A point that the deck names, in the histories of all of them."""
+
+    name: str
+    row: int
+    found: RecordedHistories
+
+    def sizes(self, values: FloatArray) -> FloatArray:
+        """Of its vectors, (m,)."""
+        return np.asarray(np.linalg.norm(values[:, self.row], axis=1))
+
+
+@TIME_HISTORY.key("a point", inside=POINT)
+def points(scene: Scene) -> list[PointPeaks]:
+    """Peaks of the points that the deck names; none where they are no result."""
+    asked, found = scene.solved.load_case.time_history, scene.solved.solution.further.time_history.histories
+    if asked is None or found is None or history_of(scene.solved) is None:
+        return []
+    return [PointPeaks(point.name, row, found) for row, point in enumerate(asked.points)]
+
+
+POINT.fields(PointPeaks, name=Field("as the deck names it"))
+
+
+@POINT.key(name="peak", unit="length")
+def peak_of_point(point: PointPeaks) -> float:
+    """Greatest displacement relative to the base."""
+    return float(point.sizes(point.found.displacements).max())
+
+
+@POINT.key(name="peak_time", unit="time")
+def time_of_peak(point: PointPeaks) -> float:
+    """When that was."""
+    return float(point.found.times[int(point.sizes(point.found.displacements).argmax())])
+
+
+@POINT.key(unit="speed")
+def peak_velocity(point: PointPeaks) -> float:
+    """Greatest velocity relative to the base."""
+    return float(point.sizes(point.found.velocities).max())
+
+
+@POINT.key(unit="acceleration")
+def peak_acceleration(point: PointPeaks) -> float:
+    """Greatest absolute acceleration."""
+    return float(point.sizes(point.found.accelerations).max())
+
+
+@POINT.key(unit="length")
+def at_the_end(point: PointPeaks) -> float:
+    """Displacement at the end."""
+    return float(point.sizes(point.found.displacements)[-1])

@@ -1,0 +1,40 @@
+"""Modes of a load case as a further result: found, verified, and what a reader must know of them."""
+
+from __future__ import annotations
+
+from mbla.assembly.assembly import Assembly
+from mbla.errors import Message
+from mbla.model.model import LoadCase
+from mbla.solution.modes.find import modes_of
+from mbla.solution.modes.modes import Modes
+from mbla.solution.verification.modes import checked_modes
+
+
+def checked_modes_of(assembly: Assembly, load_case: LoadCase, count: int) -> tuple[Modes, tuple[Message, ...]]:
+    """So many modes, verified, and remarks on them; or none, and a remark that says why."""
+    modes, wrong = checked_modes(assembly, load_case, modes_of(assembly, load_case, count))
+    remarks = [] if len(modes) else [no_modes(modes.reason)]
+    remarks += [modes_wrong(words) for words in wrong]
+    return modes, (*remarks, *modes_remarks(load_case, modes))
+
+
+def no_modes(reason: str) -> Message:
+    """The remark on why there are no modes."""
+    return Message("no-modes", f"there are no modes of vibration: {reason}")
+
+
+def modes_wrong(words: str) -> Message:
+    """The remark on what is wrong with modes."""
+    return Message("modes-not-verified", f"modes of vibration are not verified: {words}")
+
+
+def modes_remarks(load_case: LoadCase, modes: Modes) -> tuple[Message, ...]:
+    """What a reader of modes must know although nothing is wrong, from the modes alone."""
+    remarks = []
+    if loose := int(modes.loose.sum()):
+        which = "1 block that joints do not hold has" if loose == 1 else f"{loose} blocks that joints do not hold have"
+        remarks.append(Message("modes-loose-blocks", f"{which} motions without stiffness, which are no modes"))
+    if 0 < len(modes) < load_case.modes:
+        words = f"there are {len(modes)} modes of vibration, fewer than the {load_case.modes} asked for"
+        remarks.append(Message("modes-fewer", words))
+    return tuple(remarks)

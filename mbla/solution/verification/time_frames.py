@@ -1,0 +1,288 @@
+"""Frames of a time history found again: gaps, the law of elastic joints with dashpots, momentum and velocities.
+
+Each frame is a step from poses that are stored. A contact point is a material point of both bodies, in a frame F that
+turns with the host. With its places x_a and x_b, β its dashpot, h the step and h₋ the one before::
+
+    w = F (x_b − x_a),    u = F (v_b − v_a) at the slave's point
+    N = m_N − k_N (w_N + (h + β) u_N)  within −f_t … f_c,    T = m_T − k_T (h + β) u_T,  shortened to μN + c
+    M (v − v₋) = (h + h₋)/2 f − M ΔV_g + h Gᵀ (N, T)
+
+m are the forces that the point would have at w_N = 0 and without sliding; forces act at the slave's point. L = J ω with
+the inertia half a step ahead. No code of the step is used, nor any matrix of the program stage.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from mbla.arrays import BoolArray, FloatArray
+from mbla.model.model import LoadCase, Model
+from mbla.model.motion.time_history import TimeHistory
+from mbla.model.pose import Pose, moved_model
+from mbla.model.ties.moved import moved_ties, tie_lengths
+from mbla.model.ties.ties import Ties
+from mbla.solution.time_history.frames import Frames, PointSet
+from mbla.solution.verification.statics import left_to_balance
+from mbla.solution.verification.time_bodies import MovedSolids, Solids, rotations_of
+from mbla.solution.verification.time_loads import (
+    add_forces,
+    dead_wrenches,
+    force_wrenches,
+    free_fall,
+    on_bodies,
+    senses,
+    tie_points,
+)
+from mbla.solution.verification.time_motion import base_changes, integrals
+
+
+@dataclass(frozen=True)
+class FrameResidual:
+    """How far a frame is from what it should be.
+
+    law        : largest force off the law, over the largest force or the mean weight of a point
+    closing    : the same as the velocity across or along a point that would explain it, over that of free fall in h
+    momentum   : largest impulse, or angular one over size, that a body lacks, over the mean load of a body times h
+    velocities : largest velocity that is not that of the momentum, over the fastest or that of free fall in h
+    overlap    : of bodies at a point that is pressed, over the size of the smaller
+    apart      : of blocks from the body that they are part of, over its size
+    memory     : largest normal force that a joint which cannot crush remembers, over the largest force
+    """
+
+    law: float
+    closing: float
+    momentum: float
+    velocities: float
+    overlap: float
+    apart: float
+    memory: float
+
+
+@dataclass(frozen=True)
+class FrameCheck:
+    """What frames are held against.
+
+    changes  : (n, 3) of the velocity of the base in the step of each frame
+    impulses : (n, n_forces) of forces over time
+    """
+
+    case: LoadCase
+    history: TimeHistory
+    solids: Solids
+    frames: Frames
+    changes: FloatArray
+    impulses: FloatArray
+
+    @staticmethod
+    def of(case: LoadCase, history: TimeHistory, solids: Solids, frames: Frames) -> FrameCheck:
+        """With what the records give of each frame."""
+        begins, ends = frames.times - frames.lengths_before / 2.0, frames.times + frames.lengths / 2.0
+        impulses = [integrals(force.signal, begins, ends) for force in history.forces]
+        columns = np.column_stack(impulses) if impulses else np.zeros((len(frames), 0))
+        return FrameCheck(case, history, solids, frames, base_changes(history, begins, ends), columns)
+
+    def residual(self, frame: int) -> FrameResidual:
+        """Of one frame."""
+        frames, solids = self.frames, self.solids
+        moved = MovedSolids(solids, frames.shifts[frame], frames.turns[frame])
+        points = frames.sets[int(frames.set_of_frame[frame])]
+        contact = FrameContact.of(self, frame, moved, points)
+        weight = float(np.abs(self.case.dead_load[~solids.model.fixed, :3]).sum())
+        off, closing = contact.off_law(self._fall(frame))
+        forces = frames.forces[frames.values(frame)]
+        largest = max(float(np.abs(forces).max(initial=0.0)), weight / max(len(forces), 1), 1e-300)
+        remembered = np.abs(frames.remembered[frames.values(frame), 0])[np.isinf(contact.crush)]
+        return FrameResidual(
+            law=off / largest,
+            closing=closing,
+            momentum=self._momentum(frame, moved, contact),
+            velocities=self._velocities(frame, moved),
+            overlap=contact.overlap(),
+            apart=moved.apart(),
+            memory=float(remembered.max(initial=0.0)) / largest,
+        )
+
+    def _fall(self, frame: int) -> float:
+        """Velocity of free fall in the step."""
+        return free_fall(self.case, self.solids) * float(self.frames.lengths[frame])
+
+    def _momentum(self, frame: int, moved: MovedSolids, contact: FrameContact) -> float:
+        frames, solids, case = self.frames, self.solids, self.case
+        h, before = float(frames.lengths[frame]), float(frames.lengths_before[frame])
+        dead = dead_wrenches(moved, case, self.history)
+        given = (h + before) / 2.0 * dead + force_wrenches(moved, self.history, self.impulses[frame])
+        left = on_bodies(moved, given)
+        left[:, :3] -= solids.masses[:, None] * self.changes[frame]
+        contact.add_to(left, h)
+        left -= frames.momenta[frame] - frames.momenta_before[frame]
+        left = _without_guides(solids, moved, left)
+        off = np.hstack([left[:, :3], left[:, 3:] / solids.sizes[:, None]])[solids.free]
+        own = np.linalg.norm(on_bodies(moved, dead)[solids.free, :3], axis=1)
+        load = float(own.mean()) if len(own) and own.any() else float(np.abs(frames.momenta).max(initial=0.0)) / h
+        return float(np.abs(off).max(initial=0.0)) / max(load * h, 1e-300)
+
+    def _velocities(self, frame: int, moved: MovedSolids) -> float:
+        """Of every block against the momentum of its body after the step."""
+        frames, solids = self.frames, self.solids
+        motion, momenta = frames.velocities[frame], frames.momenta[frame]
+        label, size = solids.label, solids.sizes[solids.label]
+        turning = motion[solids.first, 3:]
+        ahead = rotations_of(turning * frames.lengths[frame] / 2.0) @ moved.rotations
+        inertia = ahead @ solids.tensors @ ahead.transpose(0, 2, 1)
+        can = solids.free & (solids.masses > 0.0)
+        spin, speed = np.zeros((len(solids), 3)), np.zeros((len(solids), 3))
+        spin[can] = np.linalg.solve(inertia[can], momenta[can, 3:, None])[:, :, 0]
+        speed[can] = momenta[can, :3] / solids.masses[can, None]
+        arms = moved.block_centroids - moved.centres[label]
+        off = motion[:, :3] - speed[label] - np.cross(spin[label], arms)
+        turned = (motion[:, 3:] - spin[label]) * size[:, None]
+        counts = can[label] | ~solids.free[label]
+        fastest = np.linalg.norm(motion[:, :3], axis=1) + size * np.linalg.norm(motion[:, 3:], axis=1)
+        largest = max(float(fastest.max(initial=0.0)), self._fall(frame))
+        return float(np.abs(np.hstack([off, turned])[counts]).max(initial=0.0)) / largest
+
+
+@dataclass(frozen=True)
+class FrameContact:
+    """Contact points and ties of a frame where they are; n of them, ties last.
+
+    moved   : the bodies
+    points  : as material points
+    ends    : (n_surface, 3) places of a and b
+    axes    : (n_surface, 3, 3) frames there
+    gaps    : (n,) w_N; of ties by how much they are shorter than as built, or longer where they push
+    closing : (n, 3) u; of ties along them alone
+    ties    : the model's where they are
+    remembered, forces : (n, 3)
+    tension, crush : (n,) limits of the normal force; tension positive
+    strength : (n, 2) friction and cohesion
+    step    : h
+    """
+
+    moved: MovedSolids
+    points: PointSet
+    surface: BoolArray
+    ends: tuple[FloatArray, FloatArray]
+    axes: FloatArray
+    gaps: FloatArray
+    closing: FloatArray
+    ties: Ties
+    remembered: FloatArray
+    forces: FloatArray
+    tension: FloatArray
+    crush: FloatArray
+    strength: FloatArray
+    step: float
+
+    @staticmethod
+    def of(check: FrameCheck, frame: int, moved: MovedSolids, points: PointSet) -> FrameContact:
+        """Of a frame."""
+        frames, model = check.frames, check.solids.model
+        surface = points.bodies[:, 0] >= 0
+        bodies, motion = points.bodies[surface], frames.velocities[frame]
+        ends = moved.points(bodies[:, 0], points.arms[surface, 0]), moved.points(bodies[:, 1], points.arms[surface, 1])
+        host = np.where(points.host[surface], bodies[:, 1], bodies[:, 0])
+        axes = moved.turned(host, points.frames[surface])
+        places = np.where(points.host[surface][:, None], *ends)
+        speeds = [moved.velocities(bodies[:, side], places, motion) for side in (0, 1)]
+        ties = moved_ties(model.ties, model.blocks, Pose(moved.shifts, rotations_of(moved.turns)))
+        n, own = int(surface.sum()), points.laws[~surface]
+        gaps, closing = np.zeros(len(surface)), np.zeros((len(surface), 3))
+        gaps[:n] = np.einsum("nj,nj->n", axes[:, 0], ends[1] - ends[0])
+        closing[:n] = np.einsum("nij,nj->ni", axes, speeds[1] - speeds[0])
+        sense = senses(model.ties)[own]
+        gaps[n:] = -sense * (tie_lengths(ties) - tie_lengths(model.ties))[own]
+        closing[n:, 0] = -sense * _lengthening(moved, ties, motion)[own]
+        values = frames.values(frame)
+        return FrameContact(
+            moved, points, surface, ends, axes, gaps, closing, ties, frames.remembered[values], frames.forces[values],
+            *_limits(model, points, surface), float(frames.lengths[frame]),
+        )  # fmt: skip
+
+    def off_law(self, fall: float) -> tuple[float, float]:
+        """Largest force off the law, and largest velocity of a point that would explain one, over that of free fall."""
+        k = self.points.stiffness
+        room = k * (self.step + self.points.dashpot)[:, None]
+        trial = self.remembered - room * self.closing
+        trial[:, 0] -= k[:, 0] * self.gaps
+        trial[~self.surface, 1:] = 0.0
+        across = np.clip(trial[:, 0], -self.tension, self.crush)
+        # the cone of the force that is there: an error across is no error along
+        strength = np.maximum(self.strength[:, 0] * self.forces[:, 0] + self.strength[:, 1], 0.0)
+        size = np.hypot(trial[:, 1], trial[:, 2])
+        along = trial[:, 1:] * np.where(size > strength, strength / np.maximum(size, 1e-300), 1.0)[:, None]
+        off = np.column_stack([across, along]) - self.forces
+        explained = np.abs(off) / np.maximum(room, 1e-300)
+        explained[~self.surface, 1:] = 0.0
+        largest = float(np.linalg.norm(off, axis=1).max(initial=0.0))
+        return largest, float(explained.max(initial=0.0)) / fall
+
+    def overlap(self) -> float:
+        """Largest of bodies at a point that is pressed, over the size of the smaller of the two."""
+        n, solids = len(self.axes), self.moved.solids
+        bodies = self.points.bodies[self.surface]
+        sizes = np.where(bodies < len(solids), solids.sizes[np.minimum(bodies, len(solids) - 1)], np.inf).min(axis=1)
+        pressed = self.forces[:n, 0] > 0.0
+        return -float(np.min((self.gaps[:n] / sizes)[pressed], initial=0.0))
+
+    def add_to(self, total: FloatArray, step: float) -> None:
+        """Add the impulses of all points and ties to those on bodies, (n_solids, 6) about mass centres."""
+        n = len(self.axes)
+        bodies = self.points.bodies[self.surface]
+        places = np.where(self.points.host[self.surface][:, None], *self.ends)
+        forces = step * np.einsum("nk,nkj->nj", self.forces[:n], self.axes)
+        for side, sign in ((0, -1.0), (1, 1.0)):
+            add_forces(total, self.moved, bodies[:, side], places, sign * forces)
+        own = self.points.laws[~self.surface]
+        if len(own):
+            tension = np.zeros(len(self.ties))
+            tension[own] = step * self.forces[n:, 0] * senses(self.ties)[own]
+            body, on = tie_points(self.moved, self.ties, own)
+            pulls = tension[self.ties.tie_of_point][on, None] * self.ties.pulls[on]
+            add_forces(total, self.moved, body[on], self.ties.places[on], pulls)
+
+
+def _lengthening(moved: MovedSolids, ties: Ties, motion: FloatArray) -> FloatArray:
+    """Rate at which ties get longer, (n_ties,)."""
+    body, on = tie_points(moved, ties, np.arange(len(ties)))
+    speeds = moved.velocities(body[on], ties.places[on], motion)
+    found = np.bincount(ties.tie_of_point[on], -(speeds * ties.pulls[on]).sum(axis=1), len(ties))
+    return np.asarray(found, dtype=np.float64)
+
+
+def _limits(model: Model, points: PointSet, surface: BoolArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Tension and compression that points bear, (n,), and friction and cohesion, (n, 2)."""
+    laws, row = list(model.joints.values()), np.where(surface, points.laws, 0)
+
+    def of_law(name: str, factor: FloatArray) -> FloatArray:
+        values = np.array([getattr(law, name) for law in laws], dtype=float)[row]
+        return np.where(
+            surface, np.where(np.isinf(values), np.inf, np.where(np.isinf(values), 1.0, values) * factor), 0.0
+        )
+
+    tension, crush = of_law("tensile_strength", points.areas), of_law("compressive_strength", points.areas)
+    strength = np.column_stack([of_law("friction", np.ones(len(row))), of_law("cohesion", points.areas)])
+    ties, own = model.ties, points.laws[~surface]
+    ends = np.sort(senses(ties)[own, None] * np.column_stack([ties.least, ties.greatest])[own], axis=1)
+    tension[~surface], crush[~surface] = -ends[:, 0], ends[:, 1]
+    return tension, crush, strength
+
+
+def _without_guides(solids: Solids, moved: MovedSolids, left: FloatArray) -> FloatArray:
+    """What no guide takes of impulses on bodies about their mass centres, (n, 6)."""
+    guides = solids.model.guides
+    if not len(guides):
+        return left
+    block = guides.blocks
+    body = solids.label[block]
+    model = moved_model(solids.model, Pose(moved.shifts, rotations_of(moved.turns)))
+    arms = moved.block_centroids[block] - moved.centres[body]
+    on_blocks = np.zeros((len(solids.label), 6))
+    on_blocks[block] = left[body]
+    on_blocks[block, 3:] -= np.cross(arms, left[body, :3])
+    kept = left_to_balance(model, on_blocks, np.cbrt(model.blocks.volumes))[block]
+    found = left.copy()
+    found[body] = np.hstack([kept[:, :3], kept[:, 3:] + np.cross(arms, kept[:, :3])])
+    return found

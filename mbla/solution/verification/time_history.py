@@ -1,0 +1,150 @@
+"""Verification of a time history: frames, rows, histories, peaks and end, from what is stored and the deck alone.
+
+Tolerances are relative. Momentum is exact in every step but for rounding and what a file keeps of it; the law holds to
+the velocity that a step may leave out of balance; what joins frames by rules (work of the base) is near.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from mbla.assembly.assembly import Assembly
+from mbla.errors import Message
+from mbla.model.model import LoadCase
+from mbla.solution.time_history.frames import Frames
+from mbla.solution.time_history.history import TimeHistoryResult
+from mbla.solution.verification.points_on_bodies import distances_from_bodies
+from mbla.solution.verification.time_bodies import Solids, solids_of
+from mbla.solution.verification.time_frames import FrameCheck, FrameResidual
+from mbla.solution.verification.time_rows import RowResidual, row_residual
+from mbla.solution.verification.time_said import end_failures, frames_failures, histories_failures, peaks_failures
+
+LAW = 1e-3
+"""Force off the law over the largest; or velocity that explains it, over that of free fall in the step."""
+MOMENTUM = 1e-6
+"""Impulse that a body lacks, over the mean load of a body times the step."""
+VELOCITIES = 1e-4
+"""Velocity that is not that of the momentum: the inertia half a step ahead is known to the turn that a step adds."""
+APART = 1e-6
+"""Distance of blocks from where their body takes them, over its size."""
+ENERGY = 1e-6
+"""Energy that a row lacks, or has beside its frame, over the greatest."""
+BASE_WORK = 0.05
+"""Work of the base by the momenta of frames, over all that it does, that the rule from frame to frame may be off."""
+LOSS = 1e-3
+"""Fall of what joints have dissipated, over the greatest energy: points are carried on at searches."""
+OVERLAP = 0.05
+"""Overlap of bodies over the size of the smaller, beyond which they are not beside each other."""
+AWAY = 0.05
+"""Distance of a contact point from its body, over the size of the body, beyond which it is not on the body."""
+SKEW = 1e-6
+"""Products of the unit vectors of a frame up to which they are at right angles."""
+
+
+@dataclass(frozen=True)
+class TimeChecks:
+    """What was found of a time history, the largest of all frames and rows; each is explained where it is computed.
+
+    law, closing, momentum, velocities, overlap : :class:`FrameResidual`
+    balance, kinetic, potential, base : :class:`RowResidual`
+    """
+
+    law: float
+    closing: float
+    momentum: float
+    velocities: float
+    overlap: float
+    balance: float
+    kinetic: float
+    potential: float
+    base: float
+
+
+def history_failures(
+    assembly: Assembly, case: LoadCase, result: TimeHistoryResult
+) -> tuple[TimeChecks | None, tuple[Message, ...]]:
+    """What a time history shows of itself, and what is not as it should be; None where nothing moves in time."""
+    history, rows, frames = case.time_history, result.rows, result.frames
+    if history is None or rows is None or frames is None or result.peaks is None or result.histories is None:
+        return None, ()
+    solids = solids_of(assembly, case)
+    failures = list(frames_failures(history, solids, rows, frames))
+    if not failures:
+        failures += _points_failures(solids, frames)
+    if any(failure.identifier != "time-base" for failure in failures):
+        return None, tuple(failures)
+    check = FrameCheck.of(case, history, solids, frames)
+    residuals = [check.residual(frame) for frame in range(len(frames))]
+    of_rows = row_residual(case, history, solids, rows, frames)
+    failures += _residual_failures(frames, residuals)
+    failures += _energy_failures(of_rows)
+    failures += histories_failures(history, solids, frames, result.histories)
+    failures += peaks_failures(case, solids, rows, frames, result.peaks)
+    failures += end_failures(history, rows, result.peaks, result.end)
+    return _checks(residuals, of_rows), tuple(failures)
+
+
+def _checks(residuals: Sequence[FrameResidual], of_rows: RowResidual) -> TimeChecks:
+    def most(name: str) -> float:
+        return float(np.max([getattr(each, name) for each in residuals]))
+
+    names = ("law", "closing", "momentum", "velocities", "overlap")
+    parts = {name: getattr(of_rows, name) for name in ("balance", "kinetic", "potential", "base")}
+    return TimeChecks(**{name: most(name) for name in names}, **parts)
+
+
+def _points_failures(solids: Solids, frames: Frames) -> Iterator[Message]:
+    """Where contact points are on no body, or their frames not at right angles."""
+    for number, points in enumerate(frames.sets):
+        on = points.bodies[:, 0] >= 0
+        axes = points.frames[on]
+        skew = np.abs(axes @ axes.transpose(0, 2, 1) - np.eye(3)).max(initial=0.0)
+        if not skew <= SKEW:
+            yield Message("time-points", f"search {number} has contact points whose frames are not at right angles")
+        for side in (0, 1):
+            bodies, arms = points.bodies[on, side], points.arms[on, side]
+            if len(solids) == len(solids.label) and len(bodies):
+                away = distances_from_bodies(solids.model.blocks, bodies, arms).max(initial=0.0)
+                if not away <= AWAY:
+                    yield Message("time-points", f"search {number} has contact points that are on no body")
+
+
+def _residual_failures(frames: Frames, residuals: Sequence[FrameResidual]) -> Iterator[Message]:
+    """By frames; of those that the run says it missed the law need not hold."""
+    missed = frames.missed.tolist()
+    laws = [0.0 if off else min(each.law, each.closing) for off, each in zip(missed, residuals, strict=True)]
+    limits = (
+        ("time-law", "forces are off the law of their joints by {:.2g}", laws, LAW),
+        ("time-law", "joints that cannot crush remember {:.2g} of a force", [each.memory for each in residuals], LAW),
+        ("time-momentum", "momentum lacks {:.2g}", [each.momentum for each in residuals], MOMENTUM),
+        (
+            "time-velocities",
+            "velocities are off momenta by {:.2g}",
+            [each.velocities for each in residuals],
+            VELOCITIES,
+        ),
+        ("time-points", "bodies overlap by {:.2g} of their size", [each.overlap for each in residuals], OVERLAP),
+        ("time-frames", "blocks are {:.2g} apart from their body", [each.apart for each in residuals], APART),
+    )
+    for identifier, words, values, limit in limits:
+        off = [not value <= limit for value in values]
+        if any(off):
+            worst = off.index(True) if np.isnan(values).any() else int(np.argmax(values))
+            at = f", at {frames.times[worst]:.4g} s, which exceeds {limit:g}"
+            yield Message(identifier, words.format(values[worst]) + at)
+
+
+def _energy_failures(found: RowResidual) -> Iterator[Message]:
+    limits = (
+        ("the energies of a row do not sum up, by {:.2g}", found.balance, ENERGY),
+        ("the kinetic energy of a row is off the momenta of its frame by {:.2g}", found.kinetic, ENERGY),
+        ("what the dead load gains is off the poses of a frame by {:.2g}", found.potential, ENERGY),
+        ("the work of the base is off the momenta of frames by {:.2g}", found.base, BASE_WORK),
+        ("what joints dissipate falls by {:.2g}", found.loss, LOSS),
+    )
+    for words, value, limit in limits:
+        if not value <= limit:
+            yield Message("time-energy", f"{words.format(value)} of the greatest energy, which exceeds {limit:g}")

@@ -1,0 +1,85 @@
+"""Status of a structure in time, and what a reader of its figures must know."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from mbla.solution.solution import Status
+from mbla.solution.time_history.history import HalfStep, TimeHistoryResult
+from mbla.solution.time_history.judged import differs_by_step, history_remarks, judged
+from mbla.solution.time_history.step_rows import HistoryEnd
+from tests.results.rocking import asked, rocks, step_rows
+from tests.results.synthetic import tower_model
+
+MODEL = tower_model()
+CASE = replace(MODEL.load_cases[0], time_history=asked())
+FOUND = rocks()
+PEAK = float(FOUND.peaks.displacements.max()) if FOUND.peaks else 0.0
+NOTHING: dict[str, Any] = dict.fromkeys(("rows", "frames", "histories", "peaks", "half"))
+
+
+def missed(count: int) -> TimeHistoryResult:
+    rows = step_rows()
+    return replace(FOUND, rows=replace(rows, missed=np.minimum(np.arange(len(rows)), count)))
+
+
+def halved(peak: float, end: HistoryEnd = HistoryEnd.DURATION) -> HalfStep:
+    return HalfStep(peak, 0.4, 0.0, end)
+
+
+@pytest.mark.parametrize(
+    ("found", "status", "reason"),
+    [
+        (FOUND, Status.SOLVED, ""),
+        (replace(FOUND, half=None), Status.SOLVED, ""),
+        (missed(0), Status.SOLVED, ""),
+        (missed(1), Status.APPROXIMATE, "1 of 400 steps did not converge"),
+        (replace(FOUND, half=halved(1.03 * PEAK)), Status.APPROXIMATE, "the greatest displacement changes by 3 %"),
+        (replace(FOUND, half=halved(PEAK, HistoryEnd.COLLAPSE)), Status.APPROXIMATE, "half of the step it ends other"),
+        (replace(FOUND, end=HistoryEnd.LATE), Status.TIME_LIMIT, "the time limit was reached at 4 of 4 s"),
+        (replace(FOUND, end=HistoryEnd.STOPPED), Status.TIME_LIMIT, "the run was stopped at 4 of 4 s"),
+        (replace(FOUND, end=HistoryEnd.NOT_STANDING, **NOTHING), Status.NO_EQUILIBRIUM, "does not stand"),
+    ],
+)
+def test_status(found: TimeHistoryResult, status: Status, reason: str) -> None:
+    own, why = judged(CASE, found)
+    assert own is status
+    assert reason in why
+    assert bool(reason) == bool(why)
+
+
+def test_the_peak_of_what_falls_is_not_compared() -> None:
+    fallen = replace(FOUND, end=HistoryEnd.COLLAPSE, half=halved(3.0 * PEAK, HistoryEnd.COLLAPSE))
+    assert not differs_by_step(fallen)
+
+
+def test_what_joints_give_anyway_is_no_difference() -> None:
+    found = replace(FOUND, sag=100.0 * PEAK, half=halved(2.0 * PEAK))
+    assert not differs_by_step(found)
+    assert differs_by_step(replace(found, sag=np.nan))
+
+
+@pytest.mark.parametrize(
+    ("found", "identifiers"),
+    [
+        (replace(FOUND, period=1.0), []),
+        (replace(FOUND, period=np.nan), []),
+        (FOUND, ["history-long-steps"]),
+        (replace(FOUND, period=1.0, sag=0.01), ["history-sag"]),
+        (replace(FOUND, end=HistoryEnd.NOT_STANDING, **NOTHING), []),
+    ],
+)
+def test_remarks(found: TimeHistoryResult, identifiers: list[str]) -> None:
+    assert [remark.identifier for remark in history_remarks(MODEL, CASE, found)] == identifiers
+
+
+def test_a_few_missed_steps_are_told() -> None:
+    rows = step_rows()
+    long = {name: np.tile(getattr(rows, name), 3) for name in vars(rows)}
+    many = replace(rows, **long | {"missed": np.ones(3 * len(rows), dtype=np.int64)})
+    (remark,) = history_remarks(MODEL, CASE, replace(FOUND, period=1.0, rows=many))
+    assert remark == "1 of 1202 steps did not converge"
