@@ -22,14 +22,15 @@ from mbla.solution.pushover.way import RATIO
 from mbla.solution.settings import SolverSettings
 from mbla.solution.solution import StandingResult
 from mbla.solution.standing.standing import assess_dead_load, worst_standing
+from mbla.solution.time_history.checkpoint import Checkpoint, Unfinished
 from mbla.solution.time_history.dashpots import dashpots_of, first_period
 from mbla.solution.time_history.frame_record import FrameKeeper
 from mbla.solution.time_history.greatest import Greatest
 from mbla.solution.time_history.history import HalfStep, TimeHistoryResult
 from mbla.solution.time_history.instants import Instants
+from mbla.solution.time_history.judged import history_remarks
 from mbla.solution.time_history.march import DeckStep, March
 from mbla.solution.time_history.moving_bodies import MovingBodies
-from mbla.solution.time_history.remarks import history_remarks
 from mbla.solution.time_history.row_keeper import RowKeeper
 from mbla.solution.time_history.step_rows import HistoryEnd
 from mbla.solution.time_history.time_state import TimeState
@@ -60,7 +61,8 @@ class TimeProgress:
     seconds: float
 
 
-Followed: TypeAlias = tuple[TimeHistoryResult, tuple[Message, ...]]
+Followed: TypeAlias = tuple[TimeHistoryResult, tuple[Message, ...], Checkpoint | None]
+"""what there is of a time history, what a reader of it must know, and where it goes on"""
 Watch: TypeAlias = Callable[[TimeProgress], None]
 
 
@@ -71,35 +73,45 @@ def follow(
     settings: SolverSettings,
     watch: Watch = lambda progress: None,
     tell: Callable[[Callable[[], Followed]], None] = lambda so_far: None,
+    begin: Unfinished | None = None,
 ) -> tuple[TimeHistoryResult, tuple[Message, ...], StandingResult | None]:
     """The time history of a load case, what a reader of it must know, and why it does not stand where it does not.
 
     watch : told of every step of the deck
     tell  : told how to make the same with the steps that are done by then
+    begin : what there is of the same time history, with which it goes on
     """
-    started = time.perf_counter()
-    bodies = MovingBodies.of(assembly, section, case, settings.analysis.flow_rule)
+    started, spent = time.perf_counter(), 0.0 if begin is None else begin.found.seconds
+    bodies, model = MovingBodies.of(assembly, section, case, settings.analysis.flow_rule), assembly.model
     place, _ = at_rest(bodies.structure, RATIO)
     if place is None:
         return TimeHistoryResult(HistoryEnd.NOT_STANDING), (), _standing(assembly, case, settings)
     way = TimeWay.of(bodies, assembly.contacts, place, settings.deadline, watch)
+    way = way if begin is None else way.after(begin)
 
-    def so_far(end: HistoryEnd) -> Followed:
-        result = replace(way.result(end), seconds=time.perf_counter() - started)
-        return result, history_remarks(bodies.history, bodies.structure, result)
+    def found(end: HistoryEnd) -> TimeHistoryResult:
+        return replace(way.result(end), seconds=spent + time.perf_counter() - started)
 
-    tell(lambda: so_far(HistoryEnd.STOPPED))
+    def so_far() -> Followed:
+        result = found(HistoryEnd.STOPPED)
+        return result, history_remarks(model, case, result), way.checkpoint
+
+    tell(so_far)
     end = way.followed()
-    found, remarks = so_far(end)
+    result = found(end)
     if bodies.history.check and end is not HistoryEnd.LATE:
-        found = replace(found, half=_half_step(bodies, assembly.contacts, place, settings, found))
-        remarks = history_remarks(bodies.history, bodies.structure, found)
-    return replace(found, seconds=time.perf_counter() - started), remarks, None
+        half = _half_step(bodies, assembly.contacts, place, settings)
+        result = replace(result, half=half, seconds=spent + time.perf_counter() - started)
+    return result, history_remarks(model, case, result), None
 
 
 @dataclass
 class TimeWay:
-    """Steps of a time history, and what is kept of them."""
+    """Steps of a time history, and what is kept of them.
+
+    begin  : the state that the last step has led to, at rest at first
+    period, sag : of the structure at rest
+    """
 
     march: March
     begin: TimeState
@@ -139,12 +151,36 @@ class TimeWay:
             watch,
         )
 
+    def after(self, begin: Unfinished) -> TimeWay:
+        """The same from where a time history was stopped."""
+        found, checkpoint = begin.found, begin.checkpoint
+        bodies, state = self.march.bodies, checkpoint.state(self.march.bodies)
+        if found.rows is None or found.frames is None or found.histories is None or found.peaks is None:
+            return self
+        joints = state.joints if checkpoint.in_frames else None
+        return replace(
+            self,
+            begin=state,
+            rows=RowKeeper.resumed(found.rows, checkpoint.counts.searches),
+            frames=FrameKeeper.resumed(bodies, found.frames, joints),
+            instants=self.instants.after(found.histories),
+            greatest=self.greatest.after(found.peaks, checkpoint.last),
+        )
+
+    @property
+    def checkpoint(self) -> Checkpoint | None:
+        """Where it goes on; None before the first step."""
+        state = self.begin
+        if not self.frames.frames:
+            return None
+        return Checkpoint.of(state, np.stack(self.greatest.last), self.frames.of_last is state.joints)
+
     def followed(self) -> HistoryEnd:
         """Why it ends; every step is kept as soon as it is made."""
         bodies, history = self.march.bodies, self.march.bodies.history
         before = self.begin
-        there = bodies.structure.blocks_at(before.pose)
-        self.instants.add(before, there, None, None)
+        if not self.instants.kept:
+            self.instants.add(before, bodies.structure.blocks_at(before.pose), None, None)
         for step in self.march.steps(before, history.step):
             state = step.after
             there = bodies.structure.blocks_at(state.pose)
@@ -153,11 +189,11 @@ class TimeWay:
             self.rows.add(step)
             self.instants.add(state, there, before, step)
             self.greatest.add(there, state.time)
+            before = self.begin = state
             self.watch(self._progress(state, step))
             end = self._end(state)
             if end is not HistoryEnd.NONE:
                 return end
-            before = state
         raise AssertionError("steps go on without end")
 
     def result(self, end: HistoryEnd) -> TimeHistoryResult:
@@ -224,7 +260,7 @@ class TimeWay:
 
 
 def _half_step(
-    bodies: MovingBodies, contacts: Contacts, place: PushedPlace, settings: SolverSettings, found: TimeHistoryResult
+    bodies: MovingBodies, contacts: Contacts, place: PushedPlace, settings: SolverSettings
 ) -> HalfStep | None:
     """The same with half of the step; None where the time limit cut it off."""
     halved = replace(bodies, history=replace(bodies.history, step=0.5 * bodies.history.step))

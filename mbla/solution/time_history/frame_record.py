@@ -42,6 +42,31 @@ class FrameKeeper:
     sets: list[PointSet] = field(default_factory=list)
     of_last: MovedJoints | None = None
 
+    @staticmethod
+    def resumed(bodies: MovingBodies, frames: Frames, joints: MovedJoints | None) -> FrameKeeper:
+        """After frames that are on record; joints that the last of them has, where they go on."""
+        records = []
+        for number in range(len(frames)):
+            values = frames.values(number)
+            records.append(
+                FrameRecord(
+                    time=float(frames.times[number]),
+                    length=float(frames.lengths[number]),
+                    length_before=float(frames.lengths_before[number]),
+                    shift=frames.shifts[number],
+                    turn=frames.turns[number],
+                    momenta_before=frames.momenta_before[number],
+                    momenta=frames.momenta[number],
+                    velocities=frames.velocities[number],
+                    base=frames.base[number],
+                    missed=bool(frames.missed[number]),
+                    number=int(frames.set_of_frame[number]),
+                    remembered=frames.remembered[values],
+                    forces=frames.forces[values],
+                )
+            )
+        return FrameKeeper(bodies, records, list(frames.sets), joints)
+
     def add(self, step: StepMade) -> None:
         """A step."""
         state, after, own = step.before, step.after, step.joints

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import deque
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -49,6 +49,19 @@ class Greatest:
         last: deque[FloatArray] = deque([rest.shift], maxlen=max(window, 1))
         moved, times, turned = np.zeros((3, n))
         return Greatest(blocks, rest, down, corners, last, moved, times, turned, opening, slip, np.full(n, np.nan))
+
+    def after(self, found: Peaks, last: FloatArray) -> Greatest:
+        """The same after values that are on record, and the last poses, (m, n_blocks, 3)."""
+        return replace(
+            self,
+            displacements=found.displacements.copy(),
+            times=found.times.copy(),
+            rotations=found.rotations,
+            openings=found.openings,
+            slips=found.slips,
+            falling=found.falling.copy(),
+            last=deque(last, maxlen=self.last.maxlen),
+        )
 
     def add(self, there: Pose, time: float) -> None:
         """A pose of the blocks."""

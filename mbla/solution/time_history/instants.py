@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields, replace
 from functools import cached_property
 
 import numpy as np
@@ -44,6 +44,11 @@ class Instants:
         of_named = np.repeat(np.arange(len(own)), [len(each) for each in own]).astype(np.int64)
         corners = CornersAsBuilt.of(bodies.structure.model.blocks, contacts, rows)
         return Instants(bodies, rest, corners, of_named)
+
+    def after(self, found: RecordedHistories) -> Instants:
+        """The same after instants that are on record."""
+        columns = [found.times[:, None], *(getattr(found, each.name) for each in fields(found)[1:])]
+        return replace(self, kept=list(zip(*columns, strict=True)))
 
     def add(self, state: TimeState, there: Pose, before: TimeState | None, step: DeckStep | None) -> None:
         """The instant at which a state is; nothing before it at the first."""

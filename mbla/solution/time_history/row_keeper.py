@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import astuple, dataclass, field
+from dataclasses import astuple, dataclass, field, fields
 
 import numpy as np
 
@@ -25,6 +25,14 @@ class RowKeeper:
         """Before the first step."""
         keeper = RowKeeper()
         keeper._add(state, 0.0, int((state.at.offsets[0] < 0.0).sum()))
+        return keeper
+
+    @staticmethod
+    def resumed(rows: StepRows, searches: int) -> RowKeeper:
+        """After rows that are on record."""
+        columns = [getattr(rows, each.name) for each in fields(rows)]
+        keeper = RowKeeper([tuple(row) for row in np.column_stack(columns).tolist()], searches)
+        keeper.largest = float(np.abs(np.column_stack(columns[1:10])).max(initial=0.0))
         return keeper
 
     def add(self, step: DeckStep) -> None:

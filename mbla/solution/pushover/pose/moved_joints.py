@@ -117,15 +117,28 @@ class MovedJoints:
         if before is not None and before[0]._joints.dilates:
             opened = float((before[0].opened(before[1]) / before[0].touching.sizes).max(initial=0.0))
         touching = structure.touching(pose, fallen, None if old is None else old.touching, opened)
+        areas = structure.areas_of(touching)
+        if old is not None:
+            kept = touching.before >= 0
+            areas[kept] = old.areas[touching.before[kept]]
+        return MovedJoints.on_points(structure, pose, fallen, broken, ratio, touching, areas)
+
+    @staticmethod
+    def on_points(
+        structure: PushedStructure,
+        pose: Pose,
+        fallen: BoolArray,
+        broken: BoolArray,
+        ratio: float,
+        touching: Touching,
+        areas: FloatArray,
+    ) -> MovedJoints:
+        """On contacts that were found there, with the areas that their points are as stiff as, (n_points,)."""
         rows = np.flatnonzero(~broken)
         solids = _tied(structure, pose, touching, fallen, rows)
         dead, live, _ = structure.loads_at(pose, fallen, 0.0)
         loads = replace(structure.case, dead_load=dead, live_load=live)
         full = assemble(solids.model, solids.contacts, loads, own=False).full  # guides come last
-        areas = structure.areas_of(touching)
-        if old is not None:
-            kept = touching.before >= 0
-            areas[kept] = old.areas[touching.before[kept]]
         own = rows[:0] if solids.contacts.ties is None else rows[solids.contacts.ties.rows]
         mean = float(areas.mean()) if len(areas) else float(structure.areas.mean())
         full = replace(full, facts=replace(full.facts, areas=np.append(areas, np.full(len(own), mean))))
