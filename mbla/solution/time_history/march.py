@@ -52,16 +52,15 @@ class March:
     def _deck_step(self, state: TimeState, h: float) -> DeckStep:
         state = renewed(self.bodies, state, self.of_all)
         parts = PARTS if self._impact(state, h) else 1
-        steps: list[StepMade] = []
-        for _ in range(parts):
-            more = self._solved(state, h / parts, 0)
-            steps, state = [*steps, *more], more[-1].after
+        steps = self._solved(state, h / parts, 0)
+        for _ in range(parts - 1):
+            steps += self._solved(renewed(self.bodies, steps[-1].after, self.of_all), h / parts, 0)
+        state = steps[-1].after
         counts = replace(state.counts, steps=state.counts.steps + 1, small=state.counts.small + len(steps) - 1)
         return DeckStep(steps[0], replace(state, counts=counts), max(step.error for step in steps))
 
     def _solved(self, state: TimeState, h: float, depth: int) -> list[StepMade]:
         """A step, or the steps in its place where it is not solved; the smallest are taken as they are."""
-        state = renewed(self.bodies, state, self.of_all)
         made = step_in_time(self.bodies, state, h)
         if made.error < BALANCED:
             return [made]
@@ -70,7 +69,7 @@ class March:
             return [replace(made, after=replace(made.after, counts=replace(counts, missed=counts.missed + 1)))]
         halved = replace(state.counts, halved=counts.halved + 1, factorisations=counts.factorisations)
         first = self._solved(replace(state, counts=halved), 0.5 * h, depth + 1)
-        return [*first, *self._solved(first[-1].after, 0.5 * h, depth + 1)]
+        return [*first, *self._solved(renewed(self.bodies, first[-1].after, self.of_all), 0.5 * h, depth + 1)]
 
     def _impact(self, state: TimeState, h: float) -> bool:
         """Whether an open point closes soon, and fast."""
@@ -78,6 +77,9 @@ class March:
         if not joints.n_points:
             return False
         per_length, sizes = joints.normal_scale
-        rate = state.at.joints.velocities(joints.displacements(free_flight(self.bodies, state, h).free))[0] / per_length
         gap = state.at.offsets[0] / per_length
-        return bool(np.any((gap > OPEN * sizes) & (gap + AHEAD * h * rate < 0.0) & (rate < -FAST * fall)))
+        is_open = gap > OPEN * sizes
+        if not is_open.any():
+            return False
+        rate = state.at.joints.velocities(joints.displacements(free_flight(self.bodies, state, h).free))[0] / per_length
+        return bool(np.any(is_open & (gap + AHEAD * h * rate < 0.0) & (rate < -FAST * fall)))

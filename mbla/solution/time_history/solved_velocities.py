@@ -28,9 +28,9 @@ BALANCED, WELL = 1e-3, 1e-6
 NEWTON, PRODUCTS = 6, 25
 """Iterations of each method at most."""
 
-NEAR, FAR = 1e-2, 1.0
-"""Products of the law that the primal–dual method begins with, from the best motion seen and from that without joints,
-over mean weight times free fall in the step."""
+NEAR, WORST, FAR = 1e-4, 1e2, 1.0
+"""Products of the law that the primal–dual method begins with, over mean weight times free fall in the step: from the
+best motion seen over its e, which counts up to the second, and from the motion without joints."""
 
 
 @dataclass(frozen=True)
@@ -72,7 +72,7 @@ class StepEquations:
         best = self._newton(begin)
         if best.error >= BALANCED:
             near = best.u if np.isfinite(best.error) else begin
-            for start, product in ((near, NEAR), (self.alone, FAR)):
+            for start, product in ((near, NEAR * min(best.error, WORST)), (self.alone, FAR)):
                 found = self._products(start, product * self.product)
                 best = found if found.error < best.error else best
                 if best.error < BALANCED:
