@@ -102,6 +102,25 @@ USUAL: dict[str, dict[str, Usual]] = {
         "tensile_strength": MORTAR,
         "compressive_strength": CRUSHING,
     },
+    "stiffness": {
+        "normal": Usual(
+            "1 MPa/m",
+            "1e6 GPa/m",
+            "and that of joints is 0.1 to 1000 GPa/m",
+            "stiffness_per_area",
+            ("GPa/m", "MPa/m", "Pa/m"),
+            "10 GPa/m",
+        ),
+        "modulus": Usual(
+            "1 MPa",
+            "1000 GPa",
+            "and that of masonry is 0.1 to 50 GPa",
+            "stress",
+            ("GPa", *STRESSES),
+            "3 GPa",
+        ),
+        "ratio": Usual(0.02, 2.0, "is not that of joints, 0.3 to 0.5"),
+    },
     "soil": {"friction_angle": SOIL_ANGLE, "cohesion": SOIL_COHESION, "tensile_strength": SOIL_COHESION},
     "sheared_soil": {"friction_angle": SOIL_ANGLE, "cohesion": SOIL_COHESION},
     "ties": {
@@ -165,6 +184,8 @@ def _places(content: DeckContent) -> Iterator[tuple[KeyPath, str, Any]]:
     for section in ("materials", "joints"):
         for name, item in getattr(content, section).items():
             yield (section, name), section, item
+            if section == "joints" and item.stiffness is not None:
+                yield (section, name, "stiffness"), "stiffness", item.stiffness
     for path, soil in soils_of(content):
         yield path, "soil", soil
         yield (*path, "wall"), "sheared_soil", soil.wall

@@ -122,6 +122,14 @@ def test_with_what_a_key_has_an_effect(key: str, idle_with: str, used_with: str)
     assert idle(key, f"analysis.{used_with}") == []
 
 
+def test_stiffness_has_an_effect_in_time_alone(tmp_path: Path) -> None:
+    text = BLOCK.replace('{friction: "=mu"}', "{friction: 0.6, stiffness: {normal: 10 GPa/m}}")
+    notice = next(each for each in notices(tmp_path, text) if "key-idle" in each)
+    assert notice.endswith("stiffness: has no effect: it applies to load cases with time_history or modes")
+    in_time = notices(tmp_path, text.replace("live: [{acceleration: [1, 0, 0]}]", "modes: 3"))
+    assert [each for each in in_time if "key-idle" in each] == []
+
+
 @pytest.mark.parametrize("key", ["analysis.gap=1e-5", "analysis.reductions=false"])
 def test_keys_of_both_contact_models(key: str) -> None:
     for rule in ("associative", "non_associative"):
@@ -207,6 +215,21 @@ def test_gravity_three_per_cent_off_as_live_load(tmp_path: Path) -> None:
             'unlimited; "5 MPa" may be meant',
         ),
         ("{friction: 0.6, cohesion: 1e5}", "{friction: 0.6, cohesion: 0.1}", 'is 0.1 N/m^2, .*; "0.1 MPa" may be'),
+        (
+            "{friction: 0.6, stiffness: {normal: 1.e+10}}",
+            "{friction: 0.6, stiffness: {normal: 10}}",
+            'dry.stiffness.normal = 10: is 10 N/m^3, .*; "10 GPa/m" may be meant',
+        ),
+        (
+            "{friction: 0.6, stiffness: {modulus: 3 GPa, thickness: 1 cm}}",
+            "{friction: 0.6, stiffness: {modulus: 3, thickness: 1 cm}}",
+            'dry.stiffness.modulus = 3: is 3 N/m^2, .*; "3 GPa" may be meant',
+        ),
+        (
+            "{friction: 0.6, stiffness: {normal: 1.e+10, ratio: 0.5}}",
+            "{friction: 0.6, stiffness: {normal: 1.e+10, ratio: 40}}",
+            "dry.stiffness.ratio = 40: is not that of joints",
+        ),
         ("{friction: 0.6, cohesion: 1 kPa}", "{friction: 0.6, cohesion: 200}", '"200 kPa" may be meant'),
         (
             "[1, 0, 0]}]",

@@ -157,6 +157,8 @@ def stretched(degrees: float, ratio: float) -> float:
 NO_LIVE_LOAD = {
     "objective": "a force is sought, no load factor",
     "settlement": "a support gives way, there is no live load",
+    "time_history": "it moves in time, there is no live load",
+    "modes": "it vibrates, there is no live load",
 }
 """Keys of load cases without a live load for a diagram, and what they ask instead"""
 

@@ -11,7 +11,7 @@ import numpy as np
 from mbla.arrays import FloatArray
 from mbla.assembly import build_assembly
 from mbla.deck import Deck
-from mbla.deck.section import given
+from mbla.deck.sections.time_history import given_in_time
 from mbla.errors import DeckError, UsageError
 from mbla.model import Model, build_model
 from mbla.model.build import structure_of
@@ -41,8 +41,9 @@ def refuse_unfit(deck: Deck) -> None:
     for name in content.strengthen.required:
         case = content.load_cases[name]  # the deck was checked for that
         live = case.live or []
-        if given(case, ("settlement", "objective")) or any(load.facts.live_only for load in live):
-            words = f"load case {name}: a load that travels or tilts, a settlement, an objective has no required factor"
+        if case.live is None or case.objective is not None or any(load.facts.live_only for load in live):
+            others = "a load that travels or tilts, a settlement, an objective"
+            words = f"load case {name}: {'motion in time' if given_in_time(case) else others} has no required factor"
             raise UsageError("strengthen-not-possible", words)
 
 

@@ -101,6 +101,18 @@ def test_refusals(tmp_path: Path, asked: dict[str, Any], words: str) -> None:
         question(tmp_path, **asked)
 
 
+@pytest.mark.parametrize(
+    ("case", "words"),
+    [
+        ("{modes: 3}", "it vibrates, there is no live load"),
+        ("{time_history: {motion: {pulse: sine, amplitude: 1 g, duration: 1, direction: x}}}", "it moves in time"),
+    ],
+)
+def test_cases_without_a_live_load(tmp_path: Path, case: str, words: str) -> None:
+    with pytest.raises(UsageError, match=words):
+        question(tmp_path, [f"load_cases.other={case}"], case="other")
+
+
 def test_half_of_a_structure_is_refused(tmp_path: Path) -> None:
     alone = "load_cases={push: {live: [{acceleration: [1, 0, 0]}]}}"
     with pytest.raises(UsageError, match="symmetry: the deck gives half of the structure"):

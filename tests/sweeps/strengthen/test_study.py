@@ -229,6 +229,7 @@ def test_where_no_ties_suffice_the_exit_status_is_5(tmp_path: Path, capsys: pyte
             DECK.replace("live: [{acceleration: [1, 0, 0]}]", "live: [{tilt: {axis: [0, 1, 0]}}]"),
             "strengthen-not-possible",
         ),
+        (DECK.replace("live: [{acceleration: [1, 0, 0]}]", "modes: 3"), "strengthen-not-possible"),
         (DECK + "symmetry: [{y: 0}]\n", "strengthen-not-possible"),
         (
             DECK.replace(
