@@ -49,7 +49,11 @@ def check(deck: Deck, options: RunOptions, vtu: bool, started: float) -> tuple[R
 
 
 def needs_of(deck: Deck, assembly: Assembly, load_case: LoadCase) -> CaseNeeds:
-    """What of the model reaches the solver, the size of its first cone programs, and who solves them."""
+    """What of the model reaches the solver, the size of its first cone programs, and who solves them.
+
+    Of a load case without a load factor those of its state at rest.
+    """
+    load_case = load_case if load_case.has_load_factor else load_case.dead_alone
     analysis = settings_for(load_case, solver_settings(deck.analysis)).analysis
     built = build_program(assembly, load_case, analysis)
     reduced = built.reduced

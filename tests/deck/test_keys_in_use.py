@@ -29,7 +29,7 @@ UNUSED: dict[str, str] = {
     "MeshItem": "weld",
     "MotionSection": "amplitude baseline corner direction directions duration file pulse unit",
     "OutputSection": "plots positions",
-    "OverTime": "columns scale start",
+    "OverTime": "columns interval scale start",
     "PushoverSection": "position",
     "PublishedScheme": "averaging max_programs",
     "RecordSection": "every interfaces points",

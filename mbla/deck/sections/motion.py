@@ -34,7 +34,7 @@ Column: TypeAlias = Annotated[
     Annotated[str, Field(min_length=1)] | Annotated[int, Integer(ge=1, le=1000)], Field(union_mode="left_to_right")
 ]
 """Of a file with columns: its name in the header, or its number from 1."""
-Columns: TypeAlias = Annotated[list[Column], Field(min_length=2, max_length=4)]
+Columns: TypeAlias = Annotated[list[Column], Field(min_length=1, max_length=4)]
 
 
 FILE = (
@@ -52,11 +52,21 @@ class OverTime(Section):
         description="CSV: columns of time in seconds, then of values, by their names in a header or their numbers from "
         "1; default: the first two",
     )
+    interval: Time | None = Field(
+        None,
+        description="CSV without times: between one value and the next, s; columns are those of values, by default the "
+        "first",
+    )
     scale: Number = Field(1.0, description="factor on the values")
     start: NonNegativeTime = Field(0.0, description="when it begins, s; the first time of a file counts from there")
 
+    @property
+    def count(self) -> int:
+        """How many columns of values there are."""
+        return 1 if self.columns is None else len(self.columns) - (self.interval is None)
 
-RECORD_KEYS, PULSE_KEYS = ("columns", "unit", "directions", "baseline", "corner"), ("amplitude", "duration")
+
+RECORD_KEYS, PULSE_KEYS = ("columns", "interval", "unit", "directions", "baseline", "corner"), ("amplitude", "duration")
 
 
 @exactly_one_of("file", "pulse")
@@ -150,29 +160,30 @@ def record_or_pulse(motion: MotionSection) -> Iterator[Finding]:
 @rule(MotionSection)
 def directions_of_motion(motion: MotionSection) -> Iterator[Finding]:
     """One direction, or one for each column of values."""
-    several = motion.columns is not None and len(motion.columns) > 2
-    if not several:
+    if motion.count < 2:
         if motion.directions is not None:
             yield Finding("key-of-another-choice", "applies to several columns of values: use direction", "directions")
         elif motion.direction is None and given(motion, ("file", "pulse")):
             yield Finding("missing-key", "needs direction, along which the base is accelerated: x, y, z or a vector")
         return
-    assert motion.columns is not None
     if motion.direction is not None:
         words = "applies to one column of values: use directions, or leave it out for x, y, z"
         yield Finding("key-of-another-choice", words, "direction")
-    count = len(motion.columns) - 1
-    if motion.directions is not None and len(motion.directions) != count:
-        words = f"needs {count} items, one for each column of values, has {len(motion.directions)}"
+    if motion.directions is not None and len(motion.directions) != motion.count:
+        words = f"needs {motion.count} items, one for each column of values, has {len(motion.directions)}"
         yield Finding("wrong-length", words, "directions")
 
 
 @rule(MotionSection, ForceHistorySection)
 def columns_of_a_file(section: MotionSection | ForceHistorySection) -> Iterator[Finding]:
-    """Each column once; a record of PEER has none."""
+    """Each column once, and values among them; a record of PEER has none."""
     columns = section.columns or []
-    if columns and section.file and is_at2(section.file):
-        yield Finding("key-of-another-choice", "does not apply to a file AT2, which has values only", "columns")
+    for key in given(section, ("columns", "interval")) if section.file and is_at2(section.file) else ():
+        yield Finding("key-of-another-choice", "does not apply to a file AT2, which says itself what it has", key)
+    if not 1 <= section.count <= 3:
+        words = "needs a column of values after that of the times; of a file without times give interval"
+        few = section.count < 1
+        yield Finding("wrong-length", words if few else "needs 3 items at most, has 4: an axis for each", "columns")
     for number, column in enumerate(columns):
         if column in columns[:number]:
             yield Finding("duplicate-key", f"{column} is listed already", "columns", number)
@@ -181,6 +192,6 @@ def columns_of_a_file(section: MotionSection | ForceHistorySection) -> Iterator[
 @rule(ForceHistorySection)
 def one_column_of_force(section: ForceHistorySection) -> Iterator[Finding]:
     """A force has one direction."""
-    if section.columns is not None and len(section.columns) > 2:
-        words = f"needs 2 items, time and force, has {len(section.columns)}: make one entry for each direction"
+    if section.count > 1:
+        words = f"has {section.count} columns of values: make one entry for each direction"
         yield Finding("wrong-length", words, "columns")

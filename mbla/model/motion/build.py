@@ -117,16 +117,12 @@ def _record(name: str, motion: MotionSection, path: KeyPath, site: LoadSite) -> 
             return
         direction = unit(vector_of(along))
         signal = signal.times_factor(motion.scale).later(motion.start)
-        words = f"{motion.file}{f', column {_column(motion, column)}' * (count > 1)}"
+        words = motion.file + (f", column {motion.columns[column - count]}" if motion.columns and count > 1 else "")
         words += f" x {motion.scale:g}" * (motion.scale != 1.0)
         words += f", baseline {motion.baseline}" * (motion.baseline != "none")
         words += f", along {vector(direction)}, peak {signal.peak:.6g} {site.units.unit('acceleration')}"
         remark_on_motion(words, raw.peak, site, raw if motion.baseline == "none" else None)
         yield BaseMotion(words + _from(motion.start), signal, direction, motion.file)
-
-
-def _column(motion: MotionSection, number: int) -> str:
-    return str(motion.columns[number + 1]) if motion.columns else ""
 
 
 def _from(start: float) -> str:
@@ -152,7 +148,7 @@ def _read(section: MotionSection | ForceHistorySection, path: KeyPath, site: Loa
     here = (*path, "file")
     try:
         file = site.resolve_file(here, section.file)
-        return read_at2(file) if is_at2(section.file) else read_columns(file, section.columns)
+        return read_at2(file) if is_at2(section.file) else read_columns(file, section.columns, section.interval)
     except DeckError as error:
         site.selection.faults.extend(error.faults)
     except TableRefused as refused:

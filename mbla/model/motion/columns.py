@@ -2,7 +2,7 @@
 
 Columns are separated by semicolons, and then numbers may have decimal commas; or by commas; or by blanks. Data begin
 where the column of times first has a number; lines before are headers, and so are lines that begin with ``#`` or
-``%``, anywhere. Every later line is a row of data.
+``%``, anywhere. Every later line is a row of data. In a file without times the first column of values tells where.
 """
 
 from __future__ import annotations
@@ -45,29 +45,33 @@ class _Line:
         return [part.strip().strip('"').strip() for part in parts]
 
 
-def read_columns(path: Path, wanted: Sequence[str | int] | None) -> Record:
+def read_columns(path: Path, wanted: Sequence[str | int] | None, interval: float | None = None) -> Record:
     """Times and values of a file.
 
-    wanted : columns of the time and of the values, by name or by number from 1; None for the first two
+    wanted   : columns of the time and of the values, by name or by number from 1; None for the first two
+    interval : of a file without times, s between one value and the next; ``wanted`` has columns of values alone then
 
     Raises TableRefused for files that cannot be read, columns that there are not, and what is no number.
     """
     name, lines = path.name, list(_lines(text_of(path)))
     if not any(not line.comment for line in lines):
         raise refused(f"{name}: is empty: it must have a row for each time")
-    asked = [1, 2] if wanted is None else wanted
+    asked = ([1, 2] if interval is None else [1]) if wanted is None else wanted
     header, places = _places(name, lines, asked)
     below = [line for line in lines if not line.comment and line.number > header]
     separator = _separator(below, places[0])
     first = [row for row, line in enumerate(below) if _number(line, places[0], separator) is not None][:1]
     if not first:
-        raise refused(f"{name}: no line has a number for its time in column {places[0] + 1}")
+        what = "time" if interval is None else "value"
+        raise refused(f"{name}: no line has a number for its {what} in column {places[0] + 1}")
     data, texts = below[first[0] :], [line.fields(separator) for line in below[first[0] :]]
     widest = max(map(len, texts))
     if max(places) >= widest:
         raise refused(f"{name}:{data[0].number}: no column {max(places) + 1}: rows have {counted(widest, 'column')}")
     titles = [column if isinstance(column, str) else f"column {column}" for column in asked]
     numbers = _numbers(name, data, separator, dict(zip(titles, places, strict=True)))
+    if interval is not None:
+        numbers = np.column_stack([interval * np.arange(len(numbers)), numbers])
     return checked(path, numbers[:, 0], numbers[:, 1:], [line.number for line in data])
 
 

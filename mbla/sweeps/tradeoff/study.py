@@ -15,7 +15,7 @@ import numpy as np
 from mbla.arrays import FloatArray
 from mbla.assembly import build_assembly
 from mbla.deck import Deck
-from mbla.errors import LimitError, SolverError
+from mbla.errors import LimitError, SolverError, UsageError
 from mbla.model import build_model
 from mbla.model.model import LoadCase, Model, select_cases
 from mbla.process.run_options import RunOptions
@@ -61,8 +61,8 @@ def tradeoff(deck: Deck, run: RunOptions, options: Any, report: Report | None) -
 
     options : ``knob`` and ``setting`` texts, ``wanted_error``, ``time_limit``, ``run_limit`` [s] or None
 
-    Raises DeckError, UsageError: the deck is not valid, there is no such load case, two settings have one name, or none
-    applies. Raises FileError: files are in the way or cannot be written.
+    Raises DeckError, UsageError: the deck is not valid, there is no such load case, or one without a load factor, two
+    settings have one name, or none applies. Raises FileError: files are in the way or cannot be written.
     """
     until = None if options.time_limit is None else time.monotonic() + options.time_limit
     named = named_settings(options.knob, options.setting)
@@ -71,6 +71,10 @@ def tradeoff(deck: Deck, run: RunOptions, options: Any, report: Report | None) -
     model = build_model(deck)
     build_assembly(deck, model)  # what is wrong with it is reported before a process is started
     cases = {case.deck_name: case for case in select_cases(model, run.cases)}
+    for name, case in cases.items():
+        if not case.has_load_factor:
+            words = f"load case {name}: {case.question.no_safety}, which a trade of speed for accuracy is about"
+            raise UsageError("tradeoff-option", f"{words}: choose others with --case")
     settings = settings_of(deck, run.overrides, named)
     points = {setting.name: setting.settings for setting in settings if not setting.unfit}
     study_of = partial(study_result_of, deck, model, tuple(cases.values()), settings, options.wanted_error)

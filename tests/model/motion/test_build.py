@@ -116,6 +116,15 @@ def test_one_file_with_three_components(tmp_path: Path) -> None:
     assert found.base_acceleration(2.0).tolist() == [-4.0, 2.0, -2.0]
 
 
+def test_components_without_times(tmp_path: Path) -> None:
+    written(tmp_path, "0 0\n1 3\n2 6\n", "two.txt")
+    found = history_of(
+        model(tmp_path, "motion: {file: two.txt, columns: [2, 1], interval: 0.5, unit: m/s2}, step: 0.01")
+    )
+    assert found.base_acceleration(0.75) == pytest.approx([4.5, 1.5, 0.0])
+    assert found.duration == 1.0
+
+
 def test_short_pulses_and_fine_records_shorten_the_step(tmp_path: Path) -> None:
     record(tmp_path, SHAKES[:50], TIMES[:50] / 10.0)
     assert history_of(model(tmp_path, f"motion: {SINE.replace('0.5', '0.1')}")).step == 0.001

@@ -43,6 +43,20 @@ def test_every_way_of_writing_them(tmp_path: Path, text: str, wanted: Sequence[s
     assert (record.file, record.unit, record.jumps) == ("record.csv", "", 0)
 
 
+@pytest.mark.parametrize(
+    ("text", "wanted"),
+    [
+        ("EVENT: 12\nSAMPLING_INTERVAL_S: 0.5\n0.1\n0.2\n-0.3\n", None),
+        ("t,a\n0,0.1\n0,0.2\n0,-0.3\n", ["a"]),
+        ("1 0.1\n2 0.2\n3 -0.3\n", [2]),
+    ],
+)
+def test_a_file_without_times(tmp_path: Path, text: str, wanted: Sequence[str | int] | None) -> None:
+    record = read_columns(written(tmp_path, text), wanted, 0.5)
+    assert record.times.tolist() == [0.0, 0.5, 1.0]
+    assert record.values.tolist() == [[0.1], [0.2], [-0.3]]
+
+
 def test_three_columns_of_values(tmp_path: Path) -> None:
     record = read_columns(written(tmp_path, "t,x,y,z\n0,1,2,3\n1,4,5,6\n"), ["t", "z", "x", "y"])
     assert record.values.tolist() == [[3.0, 1.0, 2.0], [6.0, 4.0, 5.0]]

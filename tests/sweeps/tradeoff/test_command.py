@@ -135,6 +135,7 @@ def test_a_time_limit_that_ends_before_the_reference(deck: Path, capsys: pytest.
     [
         (["--set", "analysis.accuracy=best"], 3, "analysis.accuracy = best"),
         (["--setting", "a: x.y=1", "--setting", "a: x.y=2"], 2, "two settings of that name"),
+        (["--set", "load_cases.push={modes: 3}", "--case", "push"], 2, "load case push: it vibrates, without"),
     ],
 )
 def test_refusals(
