@@ -14,11 +14,13 @@ from typing import Annotated, Any, Literal
 from pydantic import BeforeValidator, Field
 
 from mbla.deck.kinds.load_key import NAMED
-from mbla.deck.quantities import Count, Integer, Line, Name, Number, ParameterName, PositiveNumber, Switch
-from mbla.deck.section import Section, given, rule
+from mbla.deck.quantities import Integer, Line, Name, Number, ParameterName, Switch
+from mbla.deck.section import Section, rule
 from mbla.deck.sections.analysis import AnalysisSection
 from mbla.deck.sections.blocks import BlockItem
 from mbla.deck.sections.contacts import ContactsSection
+from mbla.deck.sections.expected import Expectation as Expectation
+from mbla.deck.sections.expected import expectations_of_kinds
 from mbla.deck.sections.fill import Fill
 from mbla.deck.sections.find import FindSection
 from mbla.deck.sections.load_cases import LoadCaseSection
@@ -58,65 +60,6 @@ class OutputSection(Section):
     positions: Literal["worst", "all"] = Field(
         "worst", description="positions of a travelling load that have files, pictures and a section of the listing"
     )
-
-
-class Expectation(Section):
-    """What a load case should give, with its source."""
-
-    load_factor: Number | None = Field(None, description="load factor by the deck's own flow rule")
-    angle: Number | None = Field(None, description="tilt: angle of collapse in degrees")
-    position: Count | None = Field(None, description="travel: number of the worst position, from 1")
-    associative_load_factor: Number | None = Field(None, description="load factor by the associative flow rule")
-    reaction: Number | None = Field(None, description="reaction of the settling support")
-    least: Number | None = Field(None, description="objective: least value of the force")
-    greatest: Number | None = Field(None, description="objective: greatest value of the force")
-    least_load_factor: Number | None = Field(
-        None,
-        description="flow other than associative: least load factor of the states of rigid joints that a search found",
-    )
-    peak: Number | None = Field(None, description="time_history: greatest displacement of the centre of a block")
-    peak_time: Number | None = Field(None, description="time_history: when that is, s")
-    residual: Number | None = Field(
-        None, description="time_history: greatest displacement at the end, its difference relative to the peak"
-    )
-    falls: Line | None = Field(
-        None, description="time_history: block that falls first, `wall[3]`; none: no block falls"
-    )
-    end: Literal["duration", "collapse", "displaced", "at_rest"] | None = Field(
-        None,
-        description="time_history: how it ends: duration over, a block has fallen by half of its height, displacement "
-        "of `stop` reached, at rest",
-    )
-    status: Literal["solved", "approximate", "not_verified", "no_equilibrium", "unbounded"] | None = Field(
-        None, description="status of the case"
-    )
-    tolerance: PositiveNumber = Field(1e-5, description="relative difference that is allowed")
-    source: Line = Field(min_length=1, description="where the figure is from")
-
-
-FIGURES = (
-    "load_factor",
-    "angle",
-    "position",
-    "associative_load_factor",
-    "reaction",
-    "least",
-    "greatest",
-    "least_load_factor",
-    "peak",
-    "peak_time",
-    "residual",
-    "falls",
-    "end",
-    "status",
-)
-
-
-@rule(Expectation)
-def expectation(item: Expectation) -> Iterator[Finding]:
-    """Something must be expected."""
-    if not given(item, FIGURES):
-        yield Finding("missing-key", f"needs at least one of {', '.join(FIGURES[:-1])} or {FIGURES[-1]}")
 
 
 class DeckContent(Section):
@@ -287,12 +230,4 @@ def named_loads(deck: DeckContent) -> Iterator[Finding]:
             yield Finding("too-many-loads", f"{words} handled: use factor in place of repeating", "loads", name)
 
 
-@rule(DeckContent)
-def expectations_of_kinds(deck: DeckContent) -> Iterator[Finding]:
-    """An angle belongs to a tilt, a worst position to a load that travels."""
-    for name, item in deck.expected.items():
-        case = deck.load_cases.get(name)
-        for key, kind in (("angle", "tilt"), ("position", "travel")):
-            live = [] if case is None or getattr(item, key) is None else (case.live or [])
-            if live and not any(load.kind == kind for load in live):
-                yield Finding("key-of-another-choice", f"applies to load cases with {kind} only", "expected", name, key)
+rule(DeckContent)(expectations_of_kinds)

@@ -21,7 +21,7 @@ from tests.decks.folder import PATHS, deck_of
 
 UNUSED: dict[str, str] = {
     "AnalysisSection": "gap max_iterations reductions residual search standing time_limit tolerance",
-    "Expectation": "end falls peak peak_time residual",
+    "Expectation": "end falls peak peak_time period residual",
     "Fill": "dilatancy",
     "JointLaw": "stiffness",
     "ForceHistorySection": "at direction file on unit",

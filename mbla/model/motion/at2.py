@@ -23,6 +23,7 @@ POINTS, STEP = (re.compile(rf"\b{name}\s*[=:]?\s*{NUMBER}", re.IGNORECASE) for n
 BEFORE = re.compile(rf"{NUMBER}[\s,]+{NUMBER}[\s,]+NPTS\s*,?\s*DT\b", re.IGNORECASE)
 """as older files have them, in front of their names"""
 UNIT = re.compile(r"\bUNITS?\s+(?:OF|IN|:|=)\s*\(?([A-Za-z]+(?:/[A-Za-z]+(?:[/^]?[A-Za-z0-9]+)?)?)", re.IGNORECASE)
+ACCELERATION = re.compile(r"\bACCELERATION\b", re.IGNORECASE)
 OTHERS = re.compile(r"\b(VELOCITY|DISPLACEMENT)\b", re.IGNORECASE)
 
 
@@ -37,7 +38,7 @@ def read_at2(path: Path) -> Record:
         raise refused(f"{name}: is empty: a record of PEER has a header with NPTS and DT, then values")
     header, points, step = _header(name, lines)
     above = " ".join(lines[:header])
-    other = OTHERS.search(above)
+    other = None if ACCELERATION.search(above) else OTHERS.search(above)
     if other or path.suffix.lower() in (".vt2", ".dt2"):
         what = other[1].lower() if other else {"v": "velocity", "d": "displacement"}[path.suffix[1].lower()]
         raise refused(f"{name}: is a record of {what}: give that of acceleration, which PEER calls AT2")
@@ -56,19 +57,20 @@ def _header(name: str, lines: Sequence[str]) -> tuple[int, int, float]:
     points = step = None
     for number, line in enumerate(lines[:MOST_OF_HEADER], start=1):
         both = BEFORE.search(line)
-        if both:
-            points, step = both[1], both[2]
-        else:
-            points, step = (
-                found[1] if (found := pattern.search(line)) else known
-                for pattern, known in ((POINTS, points), (STEP, step))
-            )
+        here = (both[1], both[2]) if both else tuple(_first(pattern, line) for pattern in (POINTS, STEP))
+        points, step = here if None not in here else (points or here[0], step or here[1])
         if points is not None and step is not None:
             return number, *_points_and_step(f"{name}:{number}", points, step)
     lacks = [key for key, found in (("NPTS", points), ("DT", step)) if found is None]
     missing = f"{' and '.join(lacks)} {'are' if len(lacks) > 1 else 'is'}"
     words = f"{name}: {missing} not in its header: write NPTS= 4000, DT= .005 SEC above the values, or give it as CSV"
     raise refused(words)
+
+
+def _first(pattern: re.Pattern[str], line: str) -> str | None:
+    """The number that a pattern finds in a line."""
+    found = pattern.search(line)
+    return None if found is None else found[1]
 
 
 def _points_and_step(place: str, points: str, step: str) -> tuple[int, float]:

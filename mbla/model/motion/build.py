@@ -93,7 +93,7 @@ def _pulse(motion: MotionSection, site: LoadSite) -> Iterator[BaseMotion]:
     signal = pulse_of(motion.pulse, motion.duration).times_factor(motion.amplitude * motion.scale).later(motion.start)
     direction = unit(vector_of(motion.direction))
     words = (
-        f"pulse {motion.pulse} of {motion.amplitude * motion.scale:.6g} {site.units.unit('acceleration')} for "
+        f"pulse {motion.pulse} of {_in_g(motion.amplitude * motion.scale, site)} for "
         f"{motion.duration:g} s along {vector(direction)}" + _from(motion.start)
     )
     remark_on_motion(words, motion.amplitude, site)
@@ -120,9 +120,13 @@ def _record(name: str, motion: MotionSection, path: KeyPath, site: LoadSite) -> 
         words = motion.file + (f", column {motion.columns[column - count]}" if motion.columns and count > 1 else "")
         words += f" x {motion.scale:g}" * (motion.scale != 1.0)
         words += f", baseline {motion.baseline}" * (motion.baseline != "none")
-        words += f", along {vector(direction)}, peak {signal.peak:.6g} {site.units.unit('acceleration')}"
+        words += f", along {vector(direction)}, peak {_in_g(signal.peak, site)}"
         remark_on_motion(words, raw.peak, site, raw if motion.baseline == "none" else None)
         yield BaseMotion(words + _from(motion.start), signal, direction, motion.file)
+
+
+def _in_g(acceleration: float, site: LoadSite) -> str:
+    return f"{acceleration / site.units.standard_gravity:.6g} g"
 
 
 def _from(start: float) -> str:
