@@ -96,9 +96,6 @@ def something_moves(section: TimeHistorySection) -> Iterator[Finding]:
     """A motion, or a force."""
     if section.motion is None and not section.forces:
         yield Finding("missing-key", "needs motion or forces: nothing acts but the dead loads")
-    if section.step is not None and section.duration is not None and section.duration / section.step > MOST_STEPS:
-        words = f"is {section.duration / section.step:.2g} times the step: {MOST_STEPS:,} steps can be followed"
-        yield Finding("out-of-bounds", words, "duration")
     if section.step is not None and section.duration is not None and section.step > section.duration:
         yield Finding("out-of-bounds", f"must be <= {section.duration:g}, the duration", "step")
 

@@ -9,7 +9,7 @@ import numpy as np
 from mbla.arrays import FloatArray, IntArray
 from mbla.deck.sections.motion import ForceHistorySection, MotionSection, is_at2, vector_of
 from mbla.deck.sections.selectors import GROUND, Selector
-from mbla.deck.sections.time_history import OF_PULSE, STEP, TimeHistorySection, motions_of
+from mbla.deck.sections.time_history import MOST_STEPS, OF_PULSE, STEP, TimeHistorySection, motions_of
 from mbla.errors import DeckError, Finding, KeyPath
 from mbla.model.applied_load import wrenches_of
 from mbla.model.loads.load_kind import LoadSite
@@ -41,8 +41,8 @@ def build_time_history(
     """
     path: KeyPath = ("load_cases", name, "time_history")
     before = len(site.selection.faults)
-    motions = tuple(_motions(name, section, path, site))
-    forces = tuple(_forces(name, section, path, site))
+    motions = tuple(_motions(section, path, site))
+    forces = tuple(_forces(section, path, site))
     points, interfaces = tuple(_points(section, path, site)), tuple(_interfaces(section, path, site))
     rigid = _rigid(name, section, path, site)
     _judge_fill(name, site)
@@ -67,6 +67,11 @@ def build_time_history(
         dead_levers=levers,
         dead_following=following,
     )
+    if built.duration / built.step > MOST_STEPS:
+        words = f"{built.duration:g} s in steps of {built.step:.3g} s are {built.duration / built.step:.2g} steps: "
+        words += f"{MOST_STEPS:,} can be followed; give step or duration"
+        site.refuse(Finding("out-of-bounds", words, *path))
+        return None
     remark_on_step(name, section, built, site)
     remark_on_duration(name, built, site)
     return built
@@ -79,10 +84,10 @@ def _default_step(section: TimeHistorySection, motions: tuple[BaseMotion, ...], 
     return min([STEP, *pulses, *(signal.usual_step for signal in of_files)])
 
 
-def _motions(name: str, section: TimeHistorySection, path: KeyPath, site: LoadSite) -> Iterator[BaseMotion]:
+def _motions(section: TimeHistorySection, path: KeyPath, site: LoadSite) -> Iterator[BaseMotion]:
     for number, motion in enumerate(motions_of(section)):
         place: KeyPath = (*path, "motion", number) if isinstance(section.motion, list) else (*path, "motion")
-        yield from _pulse(motion, site) if motion.pulse is not None else _record(name, motion, place, site)
+        yield from _pulse(motion, site) if motion.pulse is not None else _record(motion, place, site)
 
 
 def _pulse(motion: MotionSection, site: LoadSite) -> Iterator[BaseMotion]:
@@ -100,7 +105,7 @@ def _pulse(motion: MotionSection, site: LoadSite) -> Iterator[BaseMotion]:
     yield BaseMotion(words, signal, direction)
 
 
-def _record(name: str, motion: MotionSection, path: KeyPath, site: LoadSite) -> Iterator[BaseMotion]:
+def _record(motion: MotionSection, path: KeyPath, site: LoadSite) -> Iterator[BaseMotion]:
     assert motion.file is not None  # who calls knows
     record = _read(motion, path, site)
     if record is None:
@@ -161,7 +166,7 @@ def _read(section: MotionSection | ForceHistorySection, path: KeyPath, site: Loa
     return None
 
 
-def _forces(name: str, section: TimeHistorySection, path: KeyPath, site: LoadSite) -> Iterator[ForceHistory]:
+def _forces(section: TimeHistorySection, path: KeyPath, site: LoadSite) -> Iterator[ForceHistory]:
     for number, force in enumerate(section.forces):
         place: KeyPath = (*path, "forces", number)
         block = _one_block(force.on, (*place, "on"), "force over time acts on", site)
