@@ -82,7 +82,7 @@ def follow(
     begin : what there is of the same time history, with which it goes on
     """
     started, spent = time.perf_counter(), 0.0 if begin is None else begin.found.seconds
-    bodies, model = MovingBodies.of(assembly, section, case, settings.analysis.flow_rule), assembly.model
+    bodies, model = MovingBodies.of(assembly, section, case), assembly.model
     place, _ = at_rest(bodies.structure, RATIO)
     if place is None:
         return TimeHistoryResult(HistoryEnd.NOT_STANDING), (), _standing(assembly, case, settings)

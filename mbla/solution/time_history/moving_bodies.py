@@ -41,8 +41,8 @@ class MovingBodies:
     tensors: FloatArray
 
     @staticmethod
-    def of(assembly: Assembly, section: ContactsSection, case: LoadCase, flow_rule: str) -> MovingBodies:
-        """Of a load case with a time history."""
+    def of(assembly: Assembly, section: ContactsSection, case: LoadCase) -> MovingBodies:
+        """Of a load case with a time history; what slides does not lift, whatever the flow rule of the analysis."""
         history = case.time_history
         assert history is not None  # else nothing moves in time
         n = len(assembly.model.blocks)
@@ -52,7 +52,9 @@ class MovingBodies:
         of_loads = (history.dead_levers, levers, following, none, levers)
         push = Pushing(0.0, 0.0, 0.0, 0, np.zeros(0, np.int64), nowhere, False, *of_loads)
         posed = replace(case, pushover=push, live_load=_directions(assembly, history))
-        structure = PushedStructure.of(with_kinematic_blocks(assembly, history.rigid), section, posed, flow_rule)
+        structure = PushedStructure.of(
+            with_kinematic_blocks(assembly, history.rigid), section, posed, "non_associative"
+        )
         inertia = inertia_of(structure.model.blocks)
         structure, inertia = _about_mass_centres(structure.as_laws, inertia)
         unit = assembly.model.units.force_per_mass_acceleration
