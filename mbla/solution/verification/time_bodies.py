@@ -30,8 +30,7 @@ class Solids:
     model   : of the load case
     label   : (n_blocks,) body of each block, numbered in the order of their first blocks
     first   : (n,) first block of each
-    places  : (n, 3) m, centroids of their volumes as built, from which arms of contact points are taken
-    centres : (n, 3) m, mass centres as built
+    centres : (n, 3) m, mass centres as built, from which arms of contact points are taken
     masses  : (n,) force per acceleration
     tensors : (n, 3, 3) inertia about the mass centre, in the axes of the deck as built
     free    : (n,) those that can move
@@ -41,7 +40,6 @@ class Solids:
     model: Model
     label: IntArray
     first: IntArray
-    places: FloatArray
     centres: FloatArray
     masses: FloatArray
     tensors: FloatArray
@@ -75,7 +73,7 @@ def solids_of(assembly: Assembly, case: LoadCase) -> Solids:
     tensors = np.trace(second, axis1=1, axis2=2)[:, None, None] * np.eye(3) - second
     held = np.zeros(count, dtype=bool)
     held[label[model.fixed]] = True
-    return Solids(model, label, first, places, centres, unit * masses, unit * tensors, ~held, np.cbrt(volumes))
+    return Solids(model, label, first, centres, unit * masses, unit * tensors, ~held, np.cbrt(volumes))
 
 
 def _joined(label: IntArray, groups: Iterable[IntArray]) -> IntArray:
@@ -123,14 +121,11 @@ class MovedSolids:
         return rotations_of(self.turns[self.solids.first])
 
     @cached_property
-    def places(self) -> FloatArray:
-        """Where the points are from which arms are taken, (n, 3)."""
-        return self._from_first(self.solids.places)
-
-    @cached_property
     def centres(self) -> FloatArray:
         """Where the mass centres are, (n, 3)."""
-        return self._from_first(self.solids.centres)
+        first = self.solids.first
+        arms = self.solids.centres - self.solids.model.blocks.centroids[first]
+        return np.asarray(self.block_centroids[first] + np.einsum("nij,nj->ni", self.rotations, arms))
 
     @cached_property
     def block_centroids(self) -> FloatArray:
@@ -142,7 +137,7 @@ class MovedSolids:
         found = arms.copy()
         on = bodies < len(self.solids)
         own = bodies[on]
-        found[on] = self.places[own] + np.einsum("nij,nj->ni", self.rotations[own], arms[on])
+        found[on] = self.centres[own] + np.einsum("nij,nj->ni", self.rotations[own], arms[on])
         return found
 
     def turned(self, bodies: IntArray, frames: FloatArray) -> FloatArray:
@@ -172,7 +167,22 @@ class MovedSolids:
         turned = np.abs(rotations_of(self.turns) - turn).max(axis=(1, 2), initial=0.0)
         return float(np.max([off, turned], initial=0.0))
 
-    def _from_first(self, points: FloatArray) -> FloatArray:
-        first = self.solids.first
-        arms = points - self.solids.model.blocks.centroids[first]
-        return np.asarray(self.block_centroids[first] + np.einsum("nij,nj->ni", self.rotations, arms))
+
+TURNS = 4
+"""Times that an angular velocity is found again with the inertia half a step before; each gains a factor h ω."""
+
+
+def spins_before(solids: Solids, moved: MovedSolids, angular: FloatArray, before: float) -> FloatArray:
+    """Angular velocities, (n, 3), of momenta before a step, (n, 3), by the inertia half of the step before it ago.
+
+    before : length of that step
+    """
+    found = np.zeros_like(angular)
+    can = solids.free & (solids.masses > 0.0)
+    turn, tensors = moved.rotations[can], solids.tensors[can]
+    back = turn
+    for _ in range(TURNS):
+        inertia = back @ tensors @ back.transpose(0, 2, 1)
+        found[can] = np.linalg.solve(inertia, angular[can, :, None])[:, :, 0]
+        back = rotations_of(-found[can] * before / 2.0) @ turn
+    return found

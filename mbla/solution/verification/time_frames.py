@@ -5,10 +5,11 @@ turns with the host. With its places x_a and x_b, β its dashpot, h the step and
 
     w = F (x_b − x_a),    u = F (v_b − v_a) at the slave's point
     N = m_N − k_N (w_N + (h + β) u_N)  within −f_t … f_c,    T = m_T − k_T (h + β) u_T,  shortened to μN + c
-    M (v − v₋) = (h + h₋)/2 f − M ΔV_g + h Gᵀ (N, T)
+    p − p₋ = (h + h₋)/2 (f + Gᵀ (N, T)) − m ΔV_g
 
 m are the forces that the point would have at w_N = 0 and without sliding; forces act at the slave's point. L = J ω with
-the inertia half a step ahead. No code of the step is used, nor any matrix of the program stage.
+the inertia half a step ahead, by the turn that ω before the step is. No code of the step is used, nor any matrix of the
+program stage.
 """
 
 from __future__ import annotations
@@ -25,7 +26,7 @@ from mbla.model.ties.moved import moved_ties, tie_lengths
 from mbla.model.ties.ties import Ties
 from mbla.solution.time_history.frames import Frames, PointSet
 from mbla.solution.verification.statics import left_to_balance
-from mbla.solution.verification.time_bodies import MovedSolids, Solids, rotations_of
+from mbla.solution.verification.time_bodies import MovedSolids, Solids, rotations_of, spins_before
 from mbla.solution.verification.time_loads import (
     add_forces,
     dead_wrenches,
@@ -33,6 +34,7 @@ from mbla.solution.verification.time_loads import (
     free_fall,
     on_bodies,
     senses,
+    tie_limits,
     tie_points,
 )
 from mbla.solution.verification.time_motion import base_changes, integrals
@@ -115,7 +117,7 @@ class FrameCheck:
         given = (h + before) / 2.0 * dead + force_wrenches(moved, self.history, self.impulses[frame])
         left = on_bodies(moved, given)
         left[:, :3] -= solids.masses[:, None] * self.changes[frame]
-        contact.add_to(left, h)
+        contact.add_to(left, (h + before) / 2.0)
         left -= frames.momenta[frame] - frames.momenta_before[frame]
         left = _without_guides(solids, moved, left)
         off = np.hstack([left[:, :3], left[:, 3:] / solids.sizes[:, None]])[solids.free]
@@ -128,10 +130,10 @@ class FrameCheck:
         frames, solids = self.frames, self.solids
         motion, momenta = frames.velocities[frame], frames.momenta[frame]
         label, size = solids.label, solids.sizes[solids.label]
-        turning = motion[solids.first, 3:]
-        ahead = rotations_of(turning * frames.lengths[frame] / 2.0) @ moved.rotations
-        inertia = ahead @ solids.tensors @ ahead.transpose(0, 2, 1)
         can = solids.free & (solids.masses > 0.0)
+        begun = spins_before(solids, moved, frames.momenta_before[frame, :, 3:], float(frames.lengths_before[frame]))
+        ahead = rotations_of(begun * frames.lengths[frame] / 2.0) @ moved.rotations
+        inertia = ahead @ solids.tensors @ ahead.transpose(0, 2, 1)
         spin, speed = np.zeros((len(solids), 3)), np.zeros((len(solids), 3))
         spin[can] = np.linalg.solve(inertia[can], momenta[can, 3:, None])[:, :, 0]
         speed[can] = momenta[can, :3] / solids.masses[can, None]
@@ -227,18 +229,21 @@ class FrameContact:
         pressed = self.forces[:n, 0] > 0.0
         return -float(np.min((self.gaps[:n] / sizes)[pressed], initial=0.0))
 
-    def add_to(self, total: FloatArray, step: float) -> None:
-        """Add the impulses of all points and ties to those on bodies, (n_solids, 6) about mass centres."""
+    def add_to(self, total: FloatArray, between: float) -> None:
+        """Add the impulses of all points and ties to those on bodies, (n_solids, 6) about mass centres.
+
+        between : time from the middle of the step before to that of the step, in which forces act
+        """
         n = len(self.axes)
         bodies = self.points.bodies[self.surface]
         places = np.where(self.points.host[self.surface][:, None], *self.ends)
-        forces = step * np.einsum("nk,nkj->nj", self.forces[:n], self.axes)
+        forces = between * np.einsum("nk,nkj->nj", self.forces[:n], self.axes)
         for side, sign in ((0, -1.0), (1, 1.0)):
             add_forces(total, self.moved, bodies[:, side], places, sign * forces)
         own = self.points.laws[~self.surface]
         if len(own):
             tension = np.zeros(len(self.ties))
-            tension[own] = step * self.forces[n:, 0] * senses(self.ties)[own]
+            tension[own] = between * self.forces[n:, 0] * senses(self.ties)[own]
             body, on = tie_points(self.moved, self.ties, own)
             pulls = tension[self.ties.tie_of_point][on, None] * self.ties.pulls[on]
             add_forces(total, self.moved, body[on], self.ties.places[on], pulls)
@@ -265,7 +270,7 @@ def _limits(model: Model, points: PointSet, surface: BoolArray) -> tuple[FloatAr
     tension, crush = of_law("tensile_strength", points.areas), of_law("compressive_strength", points.areas)
     strength = np.column_stack([of_law("friction", np.ones(len(row))), of_law("cohesion", points.areas)])
     ties, own = model.ties, points.laws[~surface]
-    ends = np.sort(senses(ties)[own, None] * np.column_stack([ties.least, ties.greatest])[own], axis=1)
+    ends = tie_limits(ties)[own]
     tension[~surface], crush[~surface] = -ends[:, 0], ends[:, 1]
     return tension, crush, strength
 

@@ -71,6 +71,11 @@ def senses(ties: Ties) -> FloatArray:
     return np.where(ties.greatest > 0.0, 1.0, -1.0)
 
 
+def tie_limits(ties: Ties) -> FloatArray:
+    """Least and greatest normal force of ties, (n, 2)."""
+    return np.sort(senses(ties)[:, None] * np.column_stack([ties.least, ties.greatest]), axis=1)
+
+
 def free_fall(case: LoadCase, solids: Solids) -> float:
     """Mean acceleration that the dead load gives to what can move, length/s2; not 0."""
     load = float(np.linalg.norm(case.dead_load[solids.free[solids.label], :3], axis=1).sum())

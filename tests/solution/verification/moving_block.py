@@ -16,7 +16,7 @@ from mbla.arrays import FloatArray
 from mbla.assembly import Assembly
 from mbla.model.model import LoadCase
 from mbla.model.motion.signal import Signal
-from mbla.model.motion.time_history import BaseMotion, RecordedPoint, TimeHistory
+from mbla.model.motion.time_history import BaseMotion, RecordedInterface, RecordedPoint, TimeHistory
 from mbla.solution.time_history.frames import Frames, PointSet
 from mbla.solution.time_history.history import Peaks, RecordedHistories, TimeHistoryResult
 from mbla.solution.time_history.step_rows import HistoryEnd, StepRows
@@ -128,14 +128,19 @@ class Block:
         length = np.maximum(np.linalg.norm(shear, axis=1), 1e-300)
         return np.asarray(shear * np.minimum(1.0, self.friction * normal / length)[:, None])
 
+    def spin(self, state: State) -> FloatArray:
+        """Angular velocity before the step, with the inertia half a step earlier."""
+        turn, spin = state.turn, state.momentum[3:]
+        for _ in range(6):
+            spin = np.asarray(np.linalg.solve(turn @ self.tensor @ turn.T, state.momentum[3:]), dtype=np.float64)
+            turn = Rotation.from_rotvec(-spin * state.before / 2.0).as_matrix() @ state.turn
+        return spin
+
     def _step(self, state: State, h: float) -> Step:
         free = state.momentum.copy()
         free[2] -= self.mass * G * (h + state.before) / 2.0
         free[:3] -= self.mass * self.gain(state.time - state.before / 2.0, state.time + h / 2.0)
-        half = state.turn
-        for _ in range(8):
-            spin = np.linalg.solve(half @ self.tensor @ half.T, state.momentum[3:])
-            half = Rotation.from_rotvec(spin * h / 2.0).as_matrix() @ state.turn
+        half = Rotation.from_rotvec(self.spin(state) * h / 2.0).as_matrix() @ state.turn
         masses = np.zeros((6, 6))
         masses[:3, :3], masses[3:, 3:] = self.mass * np.eye(3), half @ self.tensor @ half.T
         r = self.arms @ state.turn.T
@@ -149,7 +154,8 @@ class Block:
 
         def after(motion: FloatArray) -> FloatArray:
             force = forces(motion)[:, [1, 2, 0]]
-            return np.asarray(free + h * np.concatenate([force.sum(axis=0), np.cross(r, force).sum(axis=0)]))
+            on = np.concatenate([force.sum(axis=0), np.cross(r, force).sum(axis=0)])
+            return np.asarray(free + (h + state.before) / 2.0 * on)
 
         def off(motion: FloatArray) -> FloatArray:
             return np.asarray(motion - np.linalg.solve(masses, after(motion)))
@@ -187,7 +193,7 @@ def shaken(
         contact_damping=0.0,
         every=each * step,
         points=(RecordedPoint("top", 0, np.array(size)),),
-        interfaces=(),
+        interfaces=(RecordedInterface("foot", np.array([1, 0])),),
         stop_displacement=np.inf,
         stop_at_rest=False,
         rigid=(),
@@ -203,24 +209,32 @@ def shaken(
 
 def _result(block: Block, history: TimeHistory, steps: Sequence[Step], each: int) -> TimeHistoryResult:
     shown = [step for number, step in enumerate(steps) if number % each == 0]
-    by = np.array([step.state.place for step in steps]) - steps[0].state.place
-    far = np.linalg.norm(by, axis=1)
+    states = [step.state for step in steps]
+    histories = _histories(block, history, steps)
     return TimeHistoryResult(
         end=HistoryEnd.DURATION,
         stiffness=(STIFFNESS, RATIO * STIFFNESS),
         rows=_rows(block, steps),
-        frames=_frames(block, history, shown),
-        histories=_histories(block, history, shown),
-        peaks=Peaks(
-            displacements=np.array([far.max()]),
-            times=np.array([steps[int(far.argmax())].state.time]),
-            rotations=np.zeros(1),
-            residuals=far[-1:],
-            wanders=np.zeros(1),
-            openings=np.zeros(1),
-            slips=np.zeros(1),
-            falling=np.array([np.nan]),
-        ),
+        frames=_frames(block, history, shown[:-1] if shown[-1] is steps[-1] else shown),
+        histories=histories,
+        peaks=_peaks(states, histories),
+    )
+
+
+def _peaks(states: Sequence[State], histories: RecordedHistories) -> Peaks:
+    by = np.array([state.place for state in states]) - states[0].place
+    far = np.linalg.norm(by, axis=1)
+    last = by[-round(0.1 * (len(by) - 1)) :]
+    turns = [float(np.linalg.norm(Rotation.from_matrix(state.turn).as_rotvec())) for state in states]
+    return Peaks(
+        displacements=np.array([far.max()]),
+        times=np.array([states[int(far.argmax())].time]),
+        rotations=np.array([max(turns)]),
+        residuals=np.array([np.linalg.norm(last.mean(axis=0))]),
+        wanders=np.array([np.linalg.norm(last - last.mean(axis=0), axis=1).max()]),
+        openings=np.maximum(histories.openings.max(axis=0), 0.0),
+        slips=histories.slips.max(axis=0),
+        falling=np.array([np.nan]),
     )
 
 
@@ -234,7 +248,6 @@ def _frames(block: Block, history: TimeHistory, steps: Sequence[Step]) -> Frames
         arms=np.stack([feet, block.arms], axis=1),
         frames=np.tile(np.eye(3)[[2, 0, 1]], (4, 1, 1)),
         laws=np.zeros(4, dtype=np.int64),
-        interfaces=np.zeros(4, dtype=np.int64),
         areas=np.full(4, float(block.size[0] * block.size[1]) / 4.0),
         stiffness=np.tile(block.stiffness, (4, 1)),
         dashpot=np.full(4, DASHPOT),
@@ -246,6 +259,7 @@ def _frames(block: Block, history: TimeHistory, steps: Sequence[Step]) -> Frames
         lengths_before=np.array([state.before for state in states]),
         shifts=np.array([[state.place - block.size / 2.0] for state in states]),
         turns=np.array([[Rotation.from_matrix(state.turn).as_rotvec()] for state in states]),
+        solid_of_block=np.zeros(1, dtype=np.int64),
         momenta_before=np.array([[state.momentum] for state in states]),
         momenta=np.array([[step.momentum] for step in steps]),
         velocities=np.array([[step.velocity] for step in steps]),
@@ -275,11 +289,8 @@ def _rows(block: Block, steps: Sequence[Step]) -> StepRows:
     states = [step.state for step in steps]
     kinetic, friction, base = zeros.copy(), zeros.copy(), zeros.copy()
     for row, state in enumerate(states):
-        turn = state.turn
-        for _ in range(6):
-            spin = np.linalg.solve(turn @ block.tensor @ turn.T, state.momentum[3:])
-            turn = Rotation.from_rotvec(-spin * state.before / 2.0).as_matrix() @ state.turn
-        kinetic[row] = (state.momentum[:3] ** 2).sum() / (2.0 * block.mass) + spin @ state.momentum[3:] / 2.0
+        turning = block.spin(state) @ state.momentum[3:]
+        kinetic[row] = (state.momentum[:3] ** 2).sum() / (2.0 * block.mass) + turning / 2.0
         if row:
             last, step = states[row - 1], steps[row - 1]
             mean = (state.momentum[:3] + last.momentum[:3]) / 2.0
@@ -287,7 +298,7 @@ def _rows(block: Block, steps: Sequence[Step]) -> StepRows:
             u = step.velocity[:3] + np.cross(step.velocity[3:], block.arms @ last.turn.T)
             friction[row] = -(state.time - last.time) * float((step.forces[:, 1:] * u[:, :2]).sum())
     friction, base = np.cumsum(friction), np.cumsum(base)
-    height = np.array([state.place[2] for state in states])
+    height = np.array([state.place[2] - state.before * state.momentum[2] / block.mass / 2.0 for state in states])
     potential = block.mass * G * (height - height[0])
     return StepRows(
         times=np.array([state.time for state in states]),
@@ -299,7 +310,7 @@ def _rows(block: Block, steps: Sequence[Step]) -> StepRows:
         ties=zeros,
         base=base,
         forces=zeros,
-        turning=zeros,
+        numerical=zeros,
         residuals=zeros,
         factorisations=np.arange(n),
         small_steps=whole,
@@ -316,18 +327,28 @@ def _stored(block: Block, state: State) -> float:
 
 
 def _histories(block: Block, history: TimeHistory, steps: Sequence[Step]) -> RecordedHistories:
-    states = [step.state for step in steps]
-    arm = block.size / 2.0
-    top = np.array([state.place + state.turn @ arm for state in states])
+    states, n, half = [step.state for step in steps], len(steps), block.size / 2.0
+    top = np.array([state.place + state.turn @ half for state in states])
     times = np.array([state.time for state in states])
-    none = np.zeros((len(steps), 1, 3))
+    moves = np.array([[*state.momentum[:3] / block.mass, *block.spin(state)] for state in states])
+    arms = np.array([state.turn @ half for state in states])
+    speeds = moves[:, :3] + np.cross(moves[:, 3:], arms)
+    gains = np.zeros((n, 3))
+    for row in range(1, n):
+        gain = moves[row] - moves[row - 1]
+        between = (states[row].before + states[row - 1].before) / 2.0
+        gains[row] = (gain[:3] + np.cross(gain[3:], arms[row])) / between
+    base = _base(block, times)
+    feet = np.array([state.place + block.arms @ state.turn.T for state in states]) - (block.arms + half)
+    forces = np.zeros((n, 1, 3))
+    forces[1:, 0] = [step.forces[:, [1, 2, 0]].sum(axis=0) for step in steps[:-1]]
     return RecordedHistories(
         times=times,
         displacements=(top - top[0])[:, None],
-        velocities=none,
-        accelerations=none,
-        base=_base(block, times),
-        openings=none[:, :0, 0],
-        slips=none[:, :0, 0],
-        forces=none[:, :0],
+        velocities=speeds[:, None],
+        accelerations=(gains + base[:, 2])[:, None],
+        base=base,
+        openings=feet[:, :, 2].max(axis=1)[:, None],
+        slips=np.hypot(feet[:, :, 0], feet[:, :, 1]).max(axis=1)[:, None],
+        forces=forces,
     )
