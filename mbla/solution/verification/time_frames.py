@@ -211,15 +211,23 @@ class FrameContact:
         trial[:, 0] -= k[:, 0] * self.gaps
         trial[~self.surface, 1:] = 0.0
         across = np.clip(trial[:, 0], -self.tension, self.crush)
-        # the cone of the force that is there: an error across is no error along
-        strength = np.maximum(self.strength[:, 0] * self.forces[:, 0] + self.strength[:, 1], 0.0)
-        size = np.hypot(trial[:, 1], trial[:, 2])
-        along = trial[:, 1:] * np.where(size > strength, strength / np.maximum(size, 1e-300), 1.0)[:, None]
+        along = self._within(trial[:, 1:])
         off = np.column_stack([across, along]) - self.forces
         explained = np.abs(off) / np.maximum(room, 1e-300)
         explained[~self.surface, 1:] = 0.0
         largest = float(np.linalg.norm(off, axis=1).max(initial=0.0))
         return largest, float(explained.max(initial=0.0)) / fall
+
+    def _within(self, shear: FloatArray) -> FloatArray:
+        """Shear (n, 2) within the cone of the normal force that is there: an error across is no error along."""
+        strength = np.maximum(self.strength[:, 0] * self.forces[:, 0] + self.strength[:, 1], 0.0)
+        size = np.hypot(shear[:, 0], shear[:, 1])
+        return np.asarray(shear * np.where(size > strength, strength / np.maximum(size, 1e-300), 1.0)[:, None])
+
+    def friction_kept(self) -> FloatArray:
+        """What the springs of the joints carry of shear after the step, (n, 2)."""
+        springs = self.points.stiffness[:, 1:] * self.points.dashpot[:, None] * self.closing[:, 1:]
+        return self._within(self.forces[:, 1:] + springs)
 
     def overlap(self) -> float:
         """Largest of bodies at a point that is pressed, over the size of the smaller of the two."""

@@ -11,19 +11,22 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mbla.arrays import FloatArray, IntArray, starts
+from mbla.arrays import evenly
 from mbla.assembly.assembly import Assembly
 from mbla.errors import Message
 from mbla.model.model import LoadCase
 from mbla.solution.time_history.frames import Frames
 from mbla.solution.time_history.history import TimeHistoryResult
-from mbla.solution.verification.points_on_bodies import distances_from_bodies
-from mbla.solution.verification.time_bodies import Solids, solids_of
+from mbla.solution.time_history.step_rows import HistoryEnd
+from mbla.solution.verification.time_bodies import MovedSolids, Solids, solids_of
+from mbla.solution.verification.time_following import following_failures
 from mbla.solution.verification.time_frames import FrameCheck, FrameResidual
+from mbla.solution.verification.time_joints import points_failures
+from mbla.solution.verification.time_overlaps import deepest_corner
 from mbla.solution.verification.time_peaks import PeakCheck
 from mbla.solution.verification.time_points import HistoryCheck
 from mbla.solution.verification.time_rows import RowResidual, row_residual
-from mbla.solution.verification.time_said import end_failures, frames_failures
+from mbla.solution.verification.time_said import end_failures, frames_failures, said_failures
 
 LAW = 1e-3
 """Force off the law over the largest of the frame."""
@@ -48,10 +51,13 @@ LOSS = 0.05
 after, what is stored at the end of a step."""
 OVERLAP = 0.05
 """Overlap of bodies over the size of the smaller, beyond which they are not beside each other."""
-AWAY = 0.05
-"""Distance of a contact point from its body, over the size of the body, beyond which it is not on the body."""
-SKEW = 1e-6
-"""Products of the unit vectors of a frame up to which they are at right angles."""
+
+POSES = 20
+"""Frames in which blocks are held against each other, contact points or not."""
+
+
+WITHOUT_ROWS = (HistoryEnd.NOT_STANDING, HistoryEnd.LATE, HistoryEnd.STOPPED)
+"""Ends of what may have made no step."""
 
 
 @dataclass(frozen=True)
@@ -78,19 +84,24 @@ def history_failures(
 ) -> tuple[TimeChecks | None, tuple[Message, ...]]:
     """What a time history shows of itself, and what is not as it should be; None where nothing moves in time."""
     history, rows, frames = case.time_history, result.rows, result.frames
-    if history is None or rows is None or frames is None or result.peaks is None or result.histories is None:
+    if history is None or (rows is None and result.end in WITHOUT_ROWS):
         return None, ()
+    if rows is None or frames is None or result.peaks is None or result.histories is None:
+        return None, (Message("time-frames", "the time history has no rows, frames, histories or peaks"),)
     solids = solids_of(assembly, case)
     failures = list(frames_failures(history, solids, rows, frames))
     if not failures:
-        failures += _points_failures(solids, frames)
+        failures += points_failures(assembly.contacts, case, solids, frames)
     if any(failure.identifier != "time-base" for failure in failures):
         return None, tuple(failures)
     check = FrameCheck.of(case, history, solids, frames)
     residuals = [check.residual(frame) for frame in range(len(frames))]
     of_rows = row_residual(case, history, solids, rows, frames)
     failures += _residual_failures(frames, residuals)
+    failures += _overlap_failures(solids, frames)
+    failures += following_failures(check)
     failures += _energy_failures(of_rows)
+    failures += said_failures(history, frames, result)
     contacts = assembly.contacts
     failures += HistoryCheck.of(contacts, history, solids, rows, frames, result.histories).failures()
     failures += PeakCheck(case, contacts, history, solids, rows, frames, result.peaks).failures()
@@ -105,35 +116,6 @@ def _checks(residuals: Sequence[FrameResidual], of_rows: RowResidual) -> TimeChe
     names = ("law", "closing", "momentum", "velocities", "overlap")
     parts = {name: getattr(of_rows, name) for name in ("balance", "kinetic", "potential", "base")}
     return TimeChecks(**{name: most(name) for name in names}, **parts)
-
-
-def _points_failures(solids: Solids, frames: Frames) -> Iterator[Message]:
-    """Where contact points are on no body, or their frames not at right angles."""
-    for number, points in enumerate(frames.sets):
-        on = points.bodies[:, 0] >= 0
-        axes = points.frames[on]
-        skew = np.abs(axes @ axes.transpose(0, 2, 1) - np.eye(3)).max(initial=0.0)
-        if not skew <= SKEW:
-            yield Message("time-points", f"search {number} has contact points whose frames are not at right angles")
-        for side in (0, 1):
-            away = _away(solids, points.bodies[on, side], points.arms[on, side])
-            if not away <= AWAY:
-                yield Message("time-points", f"search {number} has contact points that are on no body")
-
-
-def _away(solids: Solids, bodies: IntArray, arms: FloatArray) -> float:
-    """Largest distance of material points from the nearest block of their body, over its size."""
-    blocks, order = solids.model.blocks, np.argsort(solids.label, kind="stable")
-    count = np.bincount(solids.label)
-    on = bodies < len(solids)
-    own = bodies[on]
-    point = np.repeat(np.arange(len(own)), count[own])
-    within = np.arange(len(point)) - np.repeat(np.cumsum(count[own]) - count[own], count[own])
-    block = order[starts(count)[own][point] + within]
-    places = (solids.centres[own] + arms[on])[point] - blocks.centroids[block]
-    nearest = np.full(len(own), np.inf)
-    np.minimum.at(nearest, point, distances_from_bodies(blocks, block, places))
-    return float(nearest.max(initial=0.0))
 
 
 def _residual_failures(frames: Frames, residuals: Sequence[FrameResidual]) -> Iterator[Message]:
@@ -159,6 +141,18 @@ def _residual_failures(frames: Frames, residuals: Sequence[FrameResidual]) -> It
             worst = off.index(True) if np.isnan(values).any() else int(np.argmax(values))
             at = f", at {frames.times[worst]:.4g} s, which exceeds {limit:g}"
             yield Message(identifier, words.format(values[worst]) + at)
+
+
+def _overlap_failures(solids: Solids, frames: Frames) -> Iterator[Message]:
+    """Where blocks lie in each other that no contact point keeps apart."""
+    for frame in evenly(len(frames), POSES):
+        depth = deepest_corner(MovedSolids(solids, frames.shifts[frame], frames.turns[frame]))
+        if not depth <= OVERLAP:
+            words = (
+                f"a block lies in another, or below ground, by {depth:.2g} of its size, at {frames.times[frame]:.4g} s"
+            )
+            yield Message("time-points", words)
+            return
 
 
 def _energy_failures(found: RowResidual) -> Iterator[Message]:

@@ -24,8 +24,8 @@ from mbla.solution.verification.time_loads import free_fall
 from mbla.solution.verification.time_points import openings_and_slips
 from mbla.solution.verification.time_said import SAME
 
-FALLEN = 0.5
-"""Share of its height by which a block is lower that has fallen."""
+FALLEN, TILTED = 0.5, np.pi / 3.0
+"""Share of its height by which a block is lower that has fallen, and angle by which one is tilted that turns over."""
 
 WINDOW = 0.1
 """Share of the duration, at its end, over which the residual displacement is taken."""
@@ -62,12 +62,15 @@ class PeakCheck:
         """When the next frame begins, or the history ends, (n_frames,)."""
         return np.append(self.frames.times[1:], self.rows.times[-1])
 
-    def _between(self, speeds: FloatArray) -> FloatArray:
-        """By how much what moves with velocities at frames can move from each to the next, (n_frames, n)."""
+    def _between(self, speeds: FloatArray, size: float = 1.0) -> FloatArray:
+        """By how much what moves with velocities at frames can move from each to the next, (n_frames, n).
+
+        size : of the bodies where the velocities are angular ones
+        """
         spans = np.maximum(self._ends - self.frames.times, 0.0)[:, None]
         begin = np.maximum(speeds, np.vstack([speeds[:1], speeds[:-1]]))  # of what is struck, and stops again
         end = np.vstack([begin[2:], begin[-1:], begin[-1:]])[: len(speeds)]
-        return np.asarray(spans * (begin + end + spans * free_fall(self.case, self.solids)))
+        return np.asarray(spans * (begin + end + spans * free_fall(self.case, self.solids) / size))
 
     def _frame_of(self, times: FloatArray) -> np.ndarray:
         """The frame that begins last before instants; instants at which one begins are of that before."""
@@ -84,8 +87,8 @@ class PeakCheck:
             yield "a peak is later than the time history, or before it"
             return
         frame = self._frame_of(peaks.times)
-        near = np.maximum(by[frame, own], np.vstack([by[1:], by[-1:]])[frame, own])
-        allowed = near + self._between(np.linalg.norm(self.frames.velocities[:, :, :3], axis=2))[frame, own]
+        between = self._between(np.linalg.norm(self.frames.velocities[:, :, :3], axis=2))
+        allowed = self._reached(by, between)[frame, own]
         far = peaks.displacements > allowed * (1.0 + SAME) + self._room
         if far.any():
             block = int(far.argmax())
@@ -113,8 +116,8 @@ class PeakCheck:
             ("the opening of an interface", peaks.openings, openings, relative),
             ("the slip of an interface", peaks.slips, slips, relative),
         ):
-            after = np.vstack([values[1:], values[-1:]])
-            allowed = (np.maximum(values, after) + self._between(speeds)).max(axis=0)
+            size = self._size if values is angles else 1.0
+            allowed = self._reached(values, self._between(speeds, size)).max(axis=0)
             rounding = np.sqrt(SAME) * 1e-2 if values is angles else self._room  # of the cosine of small angles
             least = values.max(axis=0) * (1.0 - SAME) - rounding
             if not ((told >= least) & (told <= allowed * (1.0 + SAME) + rounding)).all():
@@ -140,24 +143,36 @@ class PeakCheck:
             yield "a residual displacement is said to vary more than the last frames do"
 
     def _falls(self) -> Iterator[str]:
-        """Blocks that are said to have fallen are lower by half of their height, and no others are."""
+        """Blocks that are said to have fallen are lower by half of their height or have turned over; no others are."""
         blocks, falling, own = self.solids.model.blocks, self.peaks.falling, np.arange(len(self.solids.label))
-        down = self._down()
+        down, frames = self._down(), self.frames
         along, first = blocks.vertices @ down, blocks.vertex_start[:-1]
         height = np.maximum.reduceat(along, first) - np.minimum.reduceat(along, first)
-        lower = self._moved @ down
+        lower = self._moved @ down / height
+        turns = np.stack([rotations_of(each) for each in frames.turns])
+        tilts = np.arccos(np.clip(np.einsum("i,fnij,nkj,k->fn", down, turns, turns[0], down), -1.0, 1.0))
         fallen = ~np.isnan(falling)
-        seen = lower > FALLEN * height * (1.0 + SAME)
-        when = np.where(seen.any(axis=0), self.frames.times[seen.argmax(axis=0)], np.inf)
+        seen = (lower > FALLEN * (1.0 + SAME)) | (tilts > TILTED * (1.0 + SAME))
+        when = np.where(seen.any(axis=0), frames.times[seen.argmax(axis=0)], np.inf)
         late = np.where(fallen, falling, np.inf) > when * (1.0 + SAME)
         if late.any():
             yield f"{blocks.name(int(late.argmax()))} has fallen in a frame and is not said to have by then"
         frame = self._frame_of(np.where(fallen, falling, 0.0))
-        speeds = np.abs(self.frames.velocities[:, :, :3] @ down)
-        reached = np.maximum(lower, np.vstack([lower[1:], lower[-1:]])) + self._between(speeds)
-        missing = fallen & ~(reached[frame, own] >= FALLEN * height * (1.0 - SAME))
-        if missing.any():
+        by_speed = self._between(np.abs(frames.velocities[:, :, :3] @ down)) / height
+        by_spin = self._between(np.linalg.norm(frames.velocities[:, :, 3:], axis=2), self._size)
+        near = self._reached(lower, by_speed)[frame, own] >= FALLEN * (1.0 - SAME)
+        near |= self._reached(tilts, by_spin)[frame, own] >= TILTED * (1.0 - SAME)
+        if (missing := fallen & ~near).any():
             yield f"{blocks.name(int(missing.argmax()))} is said to have fallen, and no frame shows it"
+
+    @staticmethod
+    def _reached(values: FloatArray, between: FloatArray) -> FloatArray:
+        """Most that values at frames can come to until the next frame, (n_frames, n)."""
+        return np.asarray(np.maximum(values, np.vstack([values[1:], values[-1:]])) + between)
+
+    @property
+    def _size(self) -> float:
+        return float(self.solids.sizes.min())
 
     def _down(self) -> FloatArray:
         """Direction of the dead load; −z without any."""

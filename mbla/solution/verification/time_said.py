@@ -11,7 +11,7 @@ from mbla.errors import Message
 from mbla.model.model import LoadCase
 from mbla.model.motion.time_history import TimeHistory
 from mbla.solution.time_history.frames import Frames
-from mbla.solution.time_history.history import Peaks
+from mbla.solution.time_history.history import Peaks, TimeHistoryResult
 from mbla.solution.time_history.step_rows import HistoryEnd, StepRows
 from mbla.solution.verification.time_bodies import Solids
 from mbla.solution.verification.time_loads import free_fall
@@ -63,6 +63,16 @@ def frames_failures(history: TimeHistory, solids: Solids, rows: StepRows, frames
         yield failure("counts of the time history fall from a row to the next")
     if not same(frames.base, base_displacements(history, frames.times)):
         yield Message("time-base", "the base of a frame is not where the record takes it")
+
+
+def said_failures(history: TimeHistory, frames: Frames, result: TimeHistoryResult) -> Iterator[Message]:
+    """Where sag and damping are not those of the first frame and of the first period that is said."""
+    sag = float(np.linalg.norm(frames.shifts[0], axis=1).max(initial=0.0))
+    if not abs(result.sag - sag) <= SAME * sag:
+        yield Message("time-frames", f"the joints give by {sag:.4g} at rest, and are said to give by {result.sag:.4g}")
+    damping = history.damping + np.pi * history.step / result.period
+    if not np.isclose(result.damping, damping, rtol=SAME, atol=0.0, equal_nan=True):
+        yield Message("time-frames", "the damping that is said is not that of the step and the first period")
 
 
 def end_failures(

@@ -27,7 +27,7 @@ DECK = (
     HEAD
     + """\
 parameters: {mu: 0.5, b: 1, d: 1, h: 1}
-joints: {dry: {friction: "=mu"}}
+joints: {dry: {friction: "=mu", stiffness: {normal: 1e8, ratio: 0.4}}}
 blocks:
   - box: {group: block, material: stone, min: [0, 0, 0], max: ["=b", "=d", "=h"]}
 supports: [{ground: {z: 0}}]
@@ -213,6 +213,7 @@ def _result(block: Block, history: TimeHistory, steps: Sequence[Step], each: int
     histories = _histories(block, history, steps)
     return TimeHistoryResult(
         end=HistoryEnd.DURATION,
+        sag=block.mass * G / (4.0 * float(block.stiffness[0])),
         stiffness=(STIFFNESS, RATIO * STIFFNESS),
         rows=_rows(block, steps),
         frames=_frames(block, history, shown[:-1] if shown[-1] is steps[-1] else shown),

@@ -187,7 +187,7 @@ FORGED: dict[str, tuple[Change, str]] = {
     "rows in another order": (of_rows(times=lambda x: x[::-1].copy()), "time-frames"),
     "points beside their body": (of_points(arms=add(0.4, 0, 1, 0)), "time-points"),
     "axes of a point": (of_points(frames=add(0.1, 0, 0, 0)), "time-points"),
-    "stiffness of a point": (of_points(stiffness=times(2.0)), "time-law"),
+    "stiffness of a point": (of_points(stiffness=times(2.0)), "time-points"),
     "dashpot of a point": (of_points(dashpot=times(3.0)), "time-law"),
 }
 
