@@ -11,7 +11,6 @@ from mbla.deck.content import DeckContent, soils_of
 from mbla.deck.expressions import Parameters
 from mbla.deck.references import unused_names
 from mbla.deck.sections.analysis import APPLIES
-from mbla.deck.sections.time_history import given_in_time
 from mbla.deck.text.tree import Tree, key_text
 from mbla.deck.units import Units
 from mbla.deck.unusual import unusual_gravity, unusual_values
@@ -43,7 +42,7 @@ def unused_keys(tree: Tree, content: DeckContent) -> Iterator[Notice]:
             yield _notice(tree, ("analysis", key), where)
     if analysis.soil_range and not any(soils_of(content)):
         yield _notice(tree, ("analysis", "soil_range"), "soil of cells")
-    in_time = any(given_in_time(case) for case in content.load_cases.values())
+    in_time = any(case.time_history or case.modes for case in content.load_cases.values())
     for name, joint in content.joints.items():
         if joint.dilatancy > 0.0 and analysis.flow_rule != "dilatancy":
             yield _notice(tree, ("joints", name, "dilatancy"), "flow_rule: dilatancy")

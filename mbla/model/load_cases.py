@@ -10,6 +10,7 @@ import numpy as np
 from mbla.arrays import FloatArray, IntArray
 from mbla.deck.kinds.load_key import LOAD_KEYS
 from mbla.deck.sections.load_cases import LoadCaseSection, supports_of
+from mbla.deck.sections.time_history import given_in_time
 from mbla.errors import Finding, KeyPath
 from mbla.model.applied_load import AppliedLoad, without_levers
 from mbla.model.loads.gravity import gravity_of, with_gravity
@@ -136,7 +137,7 @@ def _asked(section: LoadCaseSection) -> Variant:
     """What a load case asks if its loads do not say."""
     if section.time_history is not None:
         return Variant(question=PeakDisplacement())
-    return Variant() if section.modes is None else Variant(question=FirstPeriod())
+    return Variant(question=FirstPeriod()) if given_in_time(section) else Variant()
 
 
 def _in_time(name: str, section: LoadCaseSection, dead: _Sum, site: LoadSite) -> TimeHistory | None:

@@ -19,12 +19,8 @@ NO_FACTOR = "it vibrates, without a load factor"
 
 @dataclass(frozen=True)
 class FirstPeriod(Question):
-    """The longest period.
+    """The longest period, which modes say and no load factor."""
 
-    period : s; nan before it is known
-    """
-
-    period: float = math.nan
     name: ClassVar[str] = "modes"
     group: ClassVar[str] = "modes"
     paths: ClassVar[tuple[str, str, str]] = ("modes.period", "modes.period", "modes.period")
@@ -42,8 +38,8 @@ class FirstPeriod(Question):
     kind = "s"
 
     def value(self, load_factor: float) -> float:
-        """Whatever λ is."""
-        return self.period
+        """None."""
+        return math.nan
 
     def bounds(self, static: float, kinematic: float, mechanism: FloatArray | None) -> tuple[float, float]:
         """None."""

@@ -162,10 +162,6 @@ class Question(Protocol):
         """The smallest figure that means something."""
         return self.least_factor(ratio) * self.scale
 
-    def answered_by(self, value: float) -> Self:
-        """With the figure, where it is none that a load factor stands for."""
-        return self
-
     @property
     def by_steps(self) -> bool:
         """Whether a sequence of analyses finds the figure, and other λ stand for none."""

@@ -259,6 +259,8 @@ def answer_of(case: CaseResult, group: str = "") -> float:
     if case.load_case.time_history is not None:
         figures = history_of(case)
         return math.nan if figures is None else figures.peak
+    if question.group == "modes":
+        return case.solution.further.modes.period if case.status in WITH_VALUE else math.nan
     return math.nan if found is None else question.stated(found.load_factor)
 
 

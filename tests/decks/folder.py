@@ -27,6 +27,7 @@ FOLDERS = (
     "benchmarks/experiments",
     "structures",
     "bridges",
+    "time_histories",
     "regressions",
     "tradeoff",
     "sweeps/base",

@@ -35,6 +35,7 @@ from mbla.solution.further.further import Further
 from mbla.solution.further.geometric_safety.geometric_safety import GeometricSafety
 from mbla.solution.further.sensitivity.slopes import Side, Slope
 from mbla.solution.further.soil_range.soil_path import SoilPath
+from mbla.solution.modes.modes import Modes
 from mbla.solution.pushover.curve_rows import CurveEnd, CurveRow
 from mbla.solution.pushover.pushover import Pushover
 from mbla.solution.pushover.record import PushedRows, RowPoints
@@ -423,6 +424,19 @@ def full_solution(solution: Solution) -> Solution:
                     ),
                     stiffness=np.array([1e9, 4e8]),
                 ),
+            ),
+            modes=Modes(
+                periods=np.array([0.2]),
+                shapes=np.arange(18.0).reshape(1, 3, 6) / 18.0,
+                masses=np.array([[0.7, 0.2, 0.1]]),
+                moving=np.array([15.0, 15.0, 14.0]),
+                default=1e7,
+                stiffness=np.array([[1e7, 4e6], [2e7, 8e6]]),
+                pressed=np.array([1.0, 0.5]),
+                settlement=np.arange(18.0).reshape(3, 6) * 1e-6,
+                loose=np.array([False, True, False]),
+                residual=1e-12,
+                verified=True,
             ),
             geometric_safety=GeometricSafety(
                 sizes=np.array([0.4, 0.3999]),

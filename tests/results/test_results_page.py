@@ -27,7 +27,7 @@ PUSHED = (
     .replace("push: {live", "push: {pushover: {step: 0.2}, live")
 )
 DATASET_TYPES = {"float": "float64", "int": "int64", "bool": "uint8", "byte": "uint8"}
-VTK_KINDS = ("blocks", "frames", "contacts", "interfaces", "thrust", "hinges", "loads", "ties", "supports")
+VTK_KINDS = ("blocks", "frames", "contacts", "interfaces", "thrust", "hinges", "loads", "ties", "modes", "supports")
 
 
 @pytest.fixture(scope="module")

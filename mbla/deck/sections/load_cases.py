@@ -102,7 +102,8 @@ class LoadCaseSection(Section):
             "oneOf": [
                 {"required": ["settlement"]},
                 {"anyOf": [{"required": ["live"]}, {"required": ["objective"]}]},
-                {"anyOf": [{"required": [key]} for key in IN_TIME]},
+                {"required": ["time_history"]},
+                {"required": ["modes"], "not": {"anyOf": [{"required": [key]} for key in ASKED[:-1]]}},
             ]
         }
     )
@@ -147,8 +148,8 @@ class LoadCaseSection(Section):
     )
     modes: Annotated[int, Integer(ge=1, le=1000)] | None = Field(
         None,
-        description="in place of live, or with time_history: how many modes of vibration are sought at the state of "
-        "rest under the dead loads, with their periods and participating masses",
+        description="how many modes of vibration are sought at the state of rest under the dead loads, with their "
+        "periods and participating masses; in place of live, or beside whatever else is asked",
     )
 
 

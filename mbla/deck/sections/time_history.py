@@ -135,5 +135,6 @@ def alone_in_time(case: Any) -> Iterator[Finding]:
 
 
 def given_in_time(case: Any) -> list[str]:
-    """Those of the keys that it has."""
-    return [key for key in IN_TIME if getattr(case, key)]
+    """Those of the keys that ask a load case its question: modes may stand beside another one."""
+    others = any(getattr(case, key) for key in ("live", "settlement", "objective", "time_history"))
+    return [key for key in IN_TIME if getattr(case, key) and not (key == "modes" and others)]

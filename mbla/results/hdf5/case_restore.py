@@ -130,9 +130,9 @@ def _geometric_safety(get: dict[str, Any]) -> GeometricSafety | None:
 
 
 def _modes(get: dict[str, Any]) -> Modes:
-    if "modes/periods" not in get:
+    if "vibration/periods" not in get:
         return NO_MODES
-    values = held(Modes, "modes", get)
+    values = held(Modes, "vibration", get)
     if not (len(values["periods"]) and (values["periods"] > 0.0).all() and (np.diff(values["periods"]) <= 0.0).all()):
         raise ValueError("periods of modes")
     return Modes(**values | {"verified": bool(values["verified"])})

@@ -70,7 +70,7 @@ def answer_columns(model: Model, cases: Sequence[CaseResult]) -> tuple[list[str]
             answer_figure(case.load_case, np.nan if found is None else found.load_factor)
             for found in (result_of(case), associative_of(case))
         )
-        own = own if case.load_case.time_history is None else number(answer_of(case))
+        own = own if case.load_case.has_load_factor else number(answer_of(case))
         figures = [own if head == case.load_case.question.head(model.units) else "" for head in answers]
         least = [answer_figure(case.load_case, least_of(case))] if several else []
         rows.append([*figures, *least, associative])

@@ -16,10 +16,11 @@ def _found(scene: Scene) -> Modes | None:
     return found if len(found) else None
 
 
-MODES = Group[Modes](_found, file="cases/*/modes", table="modes", part="modes")
+MODES = Group[Modes](_found, file="cases/*/vibration", table="modes", part="modes")
+TABLE = Group[Modes](_found, table="modes")
 
 
-@MODES.quantity("table", dims="mode")
+@TABLE.quantity("table", dims="mode")
 def mode(modes: Modes) -> IntArray:
     """Number of the mode, from 1, by falling period."""
     return np.arange(1, len(modes) + 1)
@@ -31,7 +32,7 @@ MODES.fields(
 )
 
 
-@MODES.quantity("table", dims="mode", unit="frequency")
+@TABLE.quantity("table", dims="mode", unit="frequency")
 def frequencies(modes: Modes) -> FloatArray:
     """Oscillations in a second."""
     return modes.frequencies
@@ -45,7 +46,7 @@ MODES.fields(
 )
 
 
-@MODES.quantity("table", dims="mode axis")
+@TABLE.quantity("table", dims="mode axis")
 def masses_so_far(modes: Modes) -> FloatArray:
     """The same of this mode and all before it together."""
     return modes.masses.cumsum(axis=0)

@@ -16,8 +16,14 @@ MODES.fields(
     period=Field("the longest period", unit="time"),
     periods=Field("of each mode, falling", "mode", unit="time"),
     frequencies=Field("of each mode", "mode", unit="frequency"),
-    masses=Field("mass of each mode that takes part along x, y, z, over the whole that moves that way", "mode axis"),
 )
+
+
+@MODES.key("a mode", "along x, y, z")
+def masses(modes: Modes) -> list[list[float]]:
+    """Mass of each mode that takes part, over the whole that moves that way."""
+    found: list[list[float]] = modes.masses.tolist()
+    return found
 
 
 @MODES.key(dims="axis")

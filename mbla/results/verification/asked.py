@@ -157,7 +157,8 @@ def _limits(found: Found, deck: Deck, assembly: Assembly, case: CaseResult) -> N
         against = why_no_geometric_safety(assembly.model, assembly.contacts, case.load_case, deck.analysis)
         if not against:
             _missing(found, "geometric factor of safety", case, "geometric-safety-not-done")
-    if case.load_case.modes and not len(solution.further.modes):
+    falls = not case.load_case.has_load_factor and solution.status is not Status.SOLVED
+    if case.load_case.modes and not len(solution.further.modes) and not falls:
         _missing(found, "modes of vibration", case, "no-modes")
     _soil_range(found, deck, assembly.model, case)
 

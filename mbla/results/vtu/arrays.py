@@ -55,8 +55,9 @@ OTHERS: dict[tuple[str, str], tuple[Quantity, ...]] = {
     ),
     ("modes", "points"): (
         real(
-            "mode_N",
-            "displacement in mode N as drawn; Warp By Vector plays it with scale factors from -1 to 1",
+            "mode_1",
+            "displacement in the first mode as drawn, mode_2 in the second, and so on; Warp By Vector plays one with "
+            "scale factors from -1 to 1",
             "length",
             "axis",
         ),

@@ -19,6 +19,9 @@ from mbla.solution.modes.vibrating import Vibrating, vibrating
 
 FREE = "joints hold nothing that moves: there is nothing that vibrates"
 
+ROUNDING = 1e-12
+"""Share of the mass that is none: 1e-26 and less is left by rounding."""
+
 MOVES = 1e-6
 """Motion of a block over the greatest, in a motion without stiffness, from which joints do not hold it."""
 
@@ -45,7 +48,7 @@ def modes_at(assembly: Assembly, rest: Rest, count: int) -> Modes:
     return Modes(
         periods=2.0 * np.pi / np.sqrt(pairs.squares),
         shapes=_scaled(assembly.model.blocks, shapes),
-        masses=np.divide((vectors.T @ feels) ** 2, whole, out=np.zeros((len(shapes), 3)), where=whole > 0.0),
+        masses=_shares((vectors.T @ feels) ** 2, whole),
         moving=whole / rest.bodies.model.units.force_per_mass_acceleration,
         default=rest.default,
         stiffness=rest.stiffness[:n],
@@ -61,6 +64,12 @@ def _whole(masses: sp.csr_array, feels: FloatArray) -> FloatArray:
     solve = factorize(masses)
     assert solve is not None  # every block has a mass
     return np.asarray((feels * np.column_stack([solve(each) for each in feels.T])).sum(axis=0))
+
+
+def _shares(masses: FloatArray, whole: FloatArray) -> FloatArray:
+    """Masses that take part, (n, 3), over the whole, (3,); nothing where they are that but for rounding."""
+    shares = masses / np.where(whole > 0.0, whole, 1.0)
+    return np.where(shares > ROUNDING, shares, 0.0)
 
 
 def _turned(pairs: Eigenpairs, feels: FloatArray) -> FloatArray:

@@ -39,7 +39,6 @@ def at_rest_alone(
         solution = solution.with_further(Further(modes=modes), remarks)
         if modes.reason:
             solution = replace(solution, status=Status.NOT_VERIFIED, reason=modes.reason)
-        load_case = replace(load_case, question=load_case.question.answered_by(modes.period))
     return SolvedCase(load_case, solution, verify(assembly, load_case, solution))
 
 
