@@ -56,7 +56,7 @@ def _stiffness(assembly: Assembly, modes: Modes) -> str:
     names = assembly.contacts.joint_names
     given = all(not np.isnan(assembly.model.joints[name].normal_stiffness) for name in names)
     source = (
-        "" if given else ", next to rigid where the deck gives no stiffness: longer periods need that of the joints"
+        "" if given else ", next to rigid where the deck gives none: give theirs for periods as they are"
     )
     pressed = float(modes.pressed @ assembly.contacts.areas / assembly.contacts.areas.sum())
     return (
