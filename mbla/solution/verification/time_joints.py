@@ -1,8 +1,9 @@
 """Contact points of a time history held against joint laws of the deck: where they are, how stiff they are, their axes.
 
 Two bodies that touch as built share the stiffness of that area whatever part of it still touches; others that of the
-mean area. Fewer points than ``CORNERS`` have less, each its part of as many. Without a stiffness in the deck a block of
-mean weight W and size s overlaps by ``SAG`` of s over the mean area A: k = W/(A SAG s).
+mean area. Fewer points than ``CORNERS`` have less, each its part of as many. At later searches points that stay keep
+what they have, and others come or go beside them. Without a stiffness in the deck a block of mean weight W and size s
+overlaps by ``SAG`` of s over the mean area A: k = W/(A SAG s).
 """
 
 from __future__ import annotations
@@ -26,19 +27,20 @@ AWAY = 0.05
 SKEW = 1e-6
 """Products of the unit vectors of a frame up to which they are at right angles; differences of stiffnesses."""
 
-SAG, CORNERS = 1e-6, 4
-"""As told above."""
+SAG, CORNERS, CARRIED = 1e-6, 4, 3.0
+"""As told above, and by how much stiffer than its area a pair of bodies may be at later searches."""
 
 
 def points_failures(contacts: Contacts, case: LoadCase, solids: Solids, frames: Frames) -> Iterator[Message]:
     """Where contact points are on no body, their axes not at right angles, or their stiffness another."""
     areas = Areas.of(contacts, case, solids)
     for number, points in enumerate(frames.sets):
-        for words in _wrong(areas, solids, points):
+        for words in _wrong(areas, solids, points, not number):
             yield Message("time-points", f"search {number} has contact points {words}")
 
 
-def _wrong(areas: Areas, solids: Solids, points: PointSet) -> Iterator[str]:
+def _wrong(areas: Areas, solids: Solids, points: PointSet, first: bool) -> Iterator[str]:
+    """Of one search, the first or a later one."""
     on = points.bodies[:, 0] >= 0
     bodies, laws, axes = points.bodies[on], points.laws[on], points.frames[on]
     last = len(solids) + len(solids.model.grounds)
@@ -49,7 +51,7 @@ def _wrong(areas: Areas, solids: Solids, points: PointSet) -> Iterator[str]:
         yield "whose frames are not of unit vectors at right angles"
     if any(not _away(solids, bodies[:, side], points.arms[on, side]) <= AWAY for side in (0, 1)):
         yield "that are on no body"
-    if not areas.fit(bodies, laws, points.stiffness[on]):
+    if not areas.fit(bodies, laws, points.stiffness[on], first):
         yield "that are not as stiff as their joints"
 
 
@@ -92,14 +94,14 @@ class Areas:
         body = np.append(solids.label, len(solids) + np.arange(len(model.grounds)))[contacts.bodies]
         between = body[:, 0] != body[:, 1]
         numbers, row = np.unique(_numbers(body[between], count), return_inverse=True)
-        shared = np.bincount(row.ravel(), contacts.areas[between], len(numbers))
+        shared = np.asarray(np.bincount(row.ravel(), contacts.areas[between], len(numbers)), dtype=np.float64)
         loads = np.linalg.norm(case.dead_load[~model.fixed, :3], axis=1)
         weight = float(loads[loads > 0.0].mean()) if (loads > 0.0).any() else np.nan
         usual = weight / (float(shared.mean()) * SAG * float(solids.sizes[solids.free].mean()))
         return Areas(numbers, shared, list(model.joints.values()), usual, count)
 
-    def fit(self, bodies: IntArray, laws: IntArray, stiffness: FloatArray) -> bool:
-        """Whether points of bodies (n, 2) with laws (n,) are as stiff, (n, 3), as they are to be."""
+    def fit(self, bodies: IntArray, laws: IntArray, stiffness: FloatArray, first: bool) -> bool:
+        """Whether points of bodies (n, 2) with laws (n,) of a search are as stiff, (n, 3), as they are to be."""
         ratio = np.array([law.shear_ratio for law in self.laws])[laws]
         normal = np.array([law.normal_stiffness for law in self.laws])[laws]
         normal = np.where(np.isnan(normal), self.usual, normal)
@@ -109,7 +111,8 @@ class Areas:
         area = np.where(self.numbers[place] == pairs, self.shared[place], self.shared.mean())
         own = np.bincount(row.ravel(), stiffness[:, 0] / normal, len(pairs)) / area
         count = np.minimum(np.bincount(row.ravel(), minlength=len(pairs)) / CORNERS, 1.0)
-        whole = (np.abs(own - 1.0) <= SKEW) | (np.abs(own - count) <= SKEW)
+        exact = (np.abs(own - 1.0) <= SKEW) | (np.abs(own - count) <= SKEW)
+        whole = exact if first else (own > 0.0) & (own <= CARRIED)
         return bool((along <= SKEW * stiffness[:, :1]).all() and whole.all())
 
 
