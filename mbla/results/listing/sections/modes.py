@@ -55,9 +55,7 @@ def _stiffness(assembly: Assembly, modes: Modes) -> str:
     stiff = number(least) if np.isclose(least, most, rtol=1e-9) else f"{number(least)} to {number(most)}"
     names = assembly.contacts.joint_names
     given = all(not np.isnan(assembly.model.joints[name].normal_stiffness) for name in names)
-    source = (
-        "" if given else ", next to rigid where the deck gives none: give theirs for periods as they are"
-    )
+    source = "" if given else ", next to rigid where the deck gives none: give theirs for periods as they are"
     pressed = float(modes.pressed @ assembly.contacts.areas / assembly.contacts.areas.sum())
     return (
         f"Joints have a stiffness of {stiff} {units.force}/{units.length}3{source}; at rest blocks sag by up to "
