@@ -93,8 +93,9 @@ def verify_file(path: Path, *, anew: bool = False) -> tuple[Results, tuple[str, 
             paths += followed
             if not at_work(results, case):
                 pushovers += _pushover_anew(deck, results, case, found)
+                _history_anew(deck, results, case, found)
         disagreements += tuple(f"{name}: {text}" for text in found.differences)
-        unconfirmed += tuple(f"{name}: {text}" for text in (*found.unconfirmed, *found.of_pushover))
+        unconfirmed += tuple(f"{name}: {text}" for text in (*found.unconfirmed, *found.of_pushover, *found.of_history))
     disagreements += differences_of_stop(results)
     disagreements += () if deck is None else tuple(differences_of_positions(deck, again))
     left_out = cases_left_out(results)
@@ -121,6 +122,14 @@ def _pushover_anew(deck: Deck, results: Results, case: CaseResult, found: Found)
     return [again]
 
 
+def _history_anew(deck: Deck, results: Results, case: CaseResult, found: Found) -> None:
+    """The structure of a recomputed case in time once more, where it is followed; what it shows is added."""
+    if case.load_case.time_history is not None and case.solution.further.time_history.rows is not None:
+        from mbla.results.verification.history_again import held_against_history  # late: it needs solvers
+
+        held_against_history(found, deck, results.assembly, case)
+
+
 def _held_against(deck: Deck, results: Results, case: CaseResult, known: Found) -> Found:
     """What is found of a recomputed case beside what is known: its parts, its remarks, and what its state rests on."""
     done = not at_work(results, case)
@@ -129,7 +138,7 @@ def _held_against(deck: Deck, results: Results, case: CaseResult, known: Found) 
     again = again if done else tuple(remark for remark in again if remark.identifier not in MADE_LAST)
     remarks = differences_of_remarks(case, again)
     differences = [*known.differences, *found.differences, *remarks]
-    return Found(differences, [*known.unconfirmed, *found.unconfirmed], found.of_pushover)
+    return Found(differences, [*known.unconfirmed, *found.unconfirmed], found.of_pushover, found.of_history)
 
 
 def recomputed(results: Results, deck: Deck | None) -> Results:

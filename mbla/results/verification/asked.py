@@ -19,6 +19,7 @@ from mbla.results.outcome import WITH_VALUE, least_factor, ratio_of
 from mbla.results.results import CaseResult, Results
 from mbla.results.series import series_of, worst_known
 from mbla.results.verification.pushover import pushover_claims, pushover_differences
+from mbla.results.verification.time_history import history_claims, history_differences
 from mbla.solution.flow.path_record import Stop
 from mbla.solution.flow.settings import RATIOS, ratios_beside, second_ratio
 from mbla.solution.further.geometric_safety.find import why_no_geometric_safety
@@ -28,6 +29,7 @@ from mbla.solution.pushover.curve_rows import CurveEnd
 from mbla.solution.settings import settings_for, solver_settings
 from mbla.solution.solution import Mechanics, Solution, Status
 from mbla.solution.thresholds import APPROXIMATE_RESIDUAL
+from mbla.solution.time_history.step_rows import HistoryEnd
 from mbla.solution.verification.verify import locked_with_normality
 
 SAME = 1e-9
@@ -45,11 +47,13 @@ class Found:
     differences : where it is not what its deck and its arrays give
     unconfirmed : what it lacks, or states, and nothing in it shows
     of_pushover : what it states of a pushover and nothing in it shows, until that is followed anew
+    of_history  : the same of a structure in time
     """
 
     differences: list[str] = field(default_factory=list)
     unconfirmed: list[str] = field(default_factory=list)
     of_pushover: list[str] = field(default_factory=list)
+    of_history: list[str] = field(default_factory=list)
 
 
 def cases_left_out(results: Results) -> tuple[str, ...]:
@@ -92,8 +96,11 @@ def differences_of_stop(results: Results) -> tuple[str, ...]:
 
 
 def at_work(results: Results, case: CaseResult) -> bool:
-    """Whether a run was stopped, or is still at work, while it pushed on a load case: the first that is not done."""
-    return case.load_case.name in results.not_done[:1] and case.load_case.pushover is not None
+    """Whether a run was stopped, or is still at work, while it pushed on a load case, or followed it in time: the first
+    that is not done.
+    """
+    takes_long = case.load_case.pushover is not None or case.load_case.time_history is not None
+    return case.load_case.name in results.not_done[:1] and takes_long
 
 
 def held_against_deck(deck: Deck, assembly: Assembly, case: CaseResult, *, done: bool) -> Found:
@@ -106,8 +113,14 @@ def held_against_deck(deck: Deck, assembly: Assembly, case: CaseResult, *, done:
     found.differences += [f"the file has {what}, which the deck does not ask for" for what in _not_asked(deck, case)]
     if (end is CurveEnd.STOPPED) is (done or case.solution.further.pushover.rows is None):
         found.differences.append(f"the load case is {'' if done else 'not '}done, and its pushover ends: {end or '-'}")
+    history = case.solution.further.time_history
+    if history.end is not HistoryEnd.NONE and (history.end is HistoryEnd.STOPPED) is done:
+        found.differences.append(f"the load case is {'' if done else 'not '}done, and its history ends: {history.end}")
     if not done:
         return found
+    if case.load_case.time_history is not None:
+        found.differences += history_differences(deck, assembly, case)
+        found.of_history += [] if found.differences else history_claims(case)
     if case.load_case.pushover is not None:
         found.differences += pushover_differences(deck, assembly, case)
         found.of_pushover += [] if found.differences else pushover_claims(case)
@@ -137,6 +150,7 @@ def _not_asked(deck: Deck, case: CaseResult) -> Iterator[str]:
         "slopes": (solution.further.sensitivity or None, deck.analysis.sensitivity is not False),
         "a geometric factor of safety": (solution.further.geometric_safety, deck.analysis.geometric_safety),
         "a range by the dilatancy of soil": (solution.further.soil_range or None, deck.analysis.soil_range),
+        "a time history": (solution.further.time_history.end or None, load_case.time_history is not None),
         "modes of vibration": (len(solution.further.modes) or None, load_case.modes > 0),
         "a verdict on standing": (solution.standing, settings.standing or not load_case.has_load_factor),
         "a state with torsion": (solution.torsion, settings.by_torsion),

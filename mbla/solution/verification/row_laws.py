@@ -1,4 +1,4 @@
-"""Joint laws of the contact points of a pushover, held against those of its deck.
+"""Joint laws of contact points of a structure that moves, held against those of its deck.
 
 Two bodies that touch as built have the laws of their interfaces there. Of two that meet only on the way, or elsewhere
 where laws go by place, the deck says the law: that of the ground, of all contacts, or of any override.
@@ -8,26 +8,51 @@ from __future__ import annotations
 
 import numpy as np
 
-from mbla.arrays import IntArray
+from mbla.arrays import BoolArray, IntArray
 from mbla.assembly.assembly import Assembly
 from mbla.deck.sections.contacts import ContactsSection
 from mbla.model.model import LoadCase
 from mbla.solution.pushover.record import PushedRows
+from mbla.solution.time_history.frames import Frames
+from mbla.solution.verification.time_bodies import solids_of
 
 
 def row_of_another_law(assembly: Assembly, section: ContactsSection, case: LoadCase, rows: PushedRows) -> int | None:
     """The first row with a point whose joint law its deck does not give, or whose bodies are not there, or None."""
-    built = assembly.glued(case)
-    model, n_solids = built.model, len(built.model.blocks)
-    names = list(model.joints)
-    n_bodies = n_solids + len(model.grounds)
     on = rows.points.bodies[:, 0] >= 0
-    bodies, laws = rows.points.bodies[on], rows.points.laws[on]
+    label = assembly.glued(case).label
+    wrong = of_another_law(assembly, section, label, rows.points.bodies[on], rows.points.laws[on])
+    if not wrong.any():
+        return None
+    return int(np.searchsorted(rows.point_start, np.flatnonzero(on)[wrong.argmax()], side="right")) - 1
+
+
+def search_of_another_law(assembly: Assembly, section: ContactsSection, case: LoadCase, frames: Frames) -> int | None:
+    """The same of a time history: the first search for contacts with such a point, or None."""
+    label = solids_of(assembly, case).label
+    for number, points in enumerate(frames.sets):
+        on = points.bodies[:, 0] >= 0
+        if of_another_law(assembly, section, label, points.bodies[on], points.laws[on]).any():
+            return number
+    return None
+
+
+def of_another_law(
+    assembly: Assembly, section: ContactsSection, label: IntArray, bodies: IntArray, laws: IntArray
+) -> BoolArray:
+    """Which points have a law that their deck does not give, or bodies that are not there, (n,).
+
+    label  : (n_blocks,) body of each block
+    bodies : (n, 2) bodies, then grounds; laws : (n,) rows of the laws of the model
+    """
+    model, own = assembly.model, assembly.contacts
+    names, n_solids = list(model.joints), int(label.max(initial=-1)) + 1
+    n_bodies = n_solids + len(model.grounds)
     wrong = (laws < 0) | (laws >= len(names)) | (bodies >= n_bodies).any(axis=1)
-    own = built.contacts
     of_names = {name: law for law, name in enumerate(names)}
     known = np.array([of_names.get(name, -1) for name in own.joint_names], dtype=np.int64)
-    at_built = _numbers(own.bodies, n_bodies, known[own.joints], len(names))
+    as_built = np.append(label, n_solids + np.arange(len(model.grounds)))[own.bodies]
+    at_built = _numbers(as_built, n_bodies, known[own.joints], len(names))
     pairs = np.unique(at_built // (len(names) + 1))
     here = _numbers(bodies, n_bodies, laws, len(names))
     touch = np.isin(here // (len(names) + 1), pairs)
@@ -37,10 +62,7 @@ def row_of_another_law(assembly: Assembly, section: ContactsSection, case: LoadC
     meets |= np.isin(laws, [of_names.get(each.joint, -1) for each in section.overrides])
     by_place = any(each.orientation is not None or each.box is not None for each in section.overrides)
     elsewhere = ~touch | by_place | (model.interfaces is not None)
-    wrong |= ~(np.isin(here, at_built) | elsewhere & meets)
-    if not wrong.any():
-        return None
-    return int(np.searchsorted(rows.point_start, np.flatnonzero(on)[wrong.argmax()], side="right")) - 1
+    return np.asarray(wrong | ~(np.isin(here, at_built) | elsewhere & meets))
 
 
 def _numbers(bodies: IntArray, n_bodies: int, laws: IntArray, n_laws: int) -> IntArray:

@@ -56,7 +56,7 @@ POSES = 20
 """Frames in which blocks are held against each other, contact points or not."""
 
 
-WITHOUT_ROWS = (HistoryEnd.NOT_STANDING, HistoryEnd.LATE, HistoryEnd.STOPPED)
+WITHOUT_ROWS = (HistoryEnd.NONE, HistoryEnd.NOT_STANDING, HistoryEnd.LATE, HistoryEnd.STOPPED)
 """Ends of what may have made no step."""
 
 
@@ -82,7 +82,7 @@ class TimeChecks:
 def history_failures(
     assembly: Assembly, case: LoadCase, result: TimeHistoryResult
 ) -> tuple[TimeChecks | None, tuple[Message, ...]]:
-    """What a time history shows of itself, and what is not as it should be; None where nothing moves in time."""
+    """What a time history shows of itself, and what is not as it should be; None where nothing was followed in time."""
     history, rows, frames = case.time_history, result.rows, result.frames
     if history is None or (rows is None and result.end in WITHOUT_ROWS):
         return None, ()
