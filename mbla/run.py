@@ -6,7 +6,7 @@ import time
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from pathlib import Path
-from typing import TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
 from mbla.assembly import Assembly, build_assembly
 from mbla.contacts.known import KnownContacts
@@ -30,7 +30,11 @@ from mbla.solution.settings import SolverSettings, settings_for, solver_settings
 from mbla.solution.solution import IterationRecord, Status
 from mbla.solution.standing.standing import StressFreeStates
 
-Progress = Callable[[str, IterationRecord], None]
+if TYPE_CHECKING:
+    from mbla.solution.sequence.solved_case import SolvedCase
+    from mbla.solution.time_history.follow import TimeProgress
+
+Progress = Callable[[str, "IterationRecord | TimeProgress"], None]
 T = TypeVar("T")
 Tell = Callable[[Callable[[], T]], None]
 """is told how to make what there is of something that takes long; may be made at any time, while it goes on"""
@@ -43,7 +47,7 @@ def unheard(make: Callable[[], object]) -> None:
 def run(deck_path: Path, options: RunOptions, progress: Progress | None = None) -> Results:
     """Solve every load case of a deck and write the result files.
 
-    progress : called once per iteration with the name of the load case
+    progress : called once per iteration, or step in time, with the name of the load case
 
     Raises
     ------
@@ -67,7 +71,7 @@ def run_and_write(deck: Deck, options: RunOptions, progress: Progress | None, st
     out = OutputFolder(folder, stem, options.force)
     partial = Partial(out, output)
 
-    def each(case: str, record: IterationRecord) -> None:
+    def each(case: str, record: IterationRecord | TimeProgress) -> None:
         partial.keep()
         if progress is not None:
             progress(case, record)
@@ -200,6 +204,8 @@ def solve_case(
     """
     log = _log_of(load_case, status_file, progress)
     answer = answered(assembly, load_case, settings, log, states)
+    if load_case.time_history is not None and answer.status is Status.SOLVED:
+        answer = _in_time(deck, assembly, answer, settings, log, tell)
     status_file.remark(f"{load_case.name}: {answer.status}")
     case = CaseResult(answer.load_case, answer.solution, answer.checks, answer.status)
     if load_case.modes and (load_case.has_load_factor or load_case.time_history is not None):
@@ -250,10 +256,12 @@ def push_position(
     return _finished(assembly, _pushed(deck, assembly, case, settings, log, tell))
 
 
-def _log_of(load_case: LoadCase, status_file: StatusFile, progress: Progress | None) -> Log:
-    """Writes iterations of a load case to the status file, and tells of them."""
+def _log_of(
+    load_case: LoadCase, status_file: StatusFile, progress: Progress | None
+) -> Callable[[IterationRecord | TimeProgress], None]:
+    """Writes iterations of a load case, or its steps in time, to the status file, and tells of them."""
 
-    def log(record: IterationRecord) -> None:
+    def log(record: IterationRecord | TimeProgress) -> None:
         status_file.add(load_case.name, record)
         if progress is not None:
             progress(load_case.name, record)
@@ -281,6 +289,29 @@ def _pushed(
 
     solved = case.status is Status.SOLVED
     return beside(push(assembly, deck.contacts, case.load_case, case.solution, settings, log, solved, so_far))
+
+
+def _in_time(
+    deck: Deck,
+    assembly: Assembly,
+    stands: SolvedCase,
+    settings: SolverSettings,
+    log: Callable[[TimeProgress], None],
+    tell: Tell[CaseResult],
+) -> SolvedCase:
+    """A load case that stands, followed in time."""
+    from mbla.solution.sequence.history import with_history  # late: few load cases are
+    from mbla.solution.time_history.follow import Followed, follow
+
+    def case_of(found: Followed) -> CaseResult:
+        answer = with_history(assembly, stands, *found)
+        return _finished(assembly, CaseResult(answer.load_case, answer.solution, answer.checks, answer.status))
+
+    def so_far(make: Callable[[], Followed]) -> None:
+        tell(lambda: case_of(make()))
+
+    found, remarks, _ = follow(assembly, deck.contacts, stands.load_case, settings, log, so_far)
+    return with_history(assembly, stands, found, remarks)
 
 
 def _finished(assembly: Assembly, case: CaseResult) -> CaseResult:

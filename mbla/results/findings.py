@@ -48,20 +48,19 @@ REMARKS_THAT_WARN = frozenset(
         "assessment-not-done",
         "brittle-ties",
         "control-point-at-rest",
+        "default-for-published",
+        "geometric-safety-not-done",
         "livesley-overstates",
         "modes-not-verified",
         "no-modes",
-        "default-for-published",
-        "history-long-steps",
-        "history-sag",
         "pushover-depends-on-step",
         "pushover-drops",
         "pushover-not-done",
         "pushover-rough",
-        "geometric-safety-not-done",
         "sensitivity-not-done",
         "soil-mesh-scatters",
         "tilt-between-not-proved",
+        "time-history-soft",
     }
 )
 """Remarks of a solver that are warnings; the others are notices."""
@@ -75,9 +74,6 @@ FOUND_AGAIN = frozenset(
         "modes-fewer",
         "modes-loose-blocks",
         "modes-not-verified",
-        "history-long-steps",
-        "history-sag",
-        "history-steps-missed",
         "pushover-depends-on-step",
         "pushover-drops",
         "pushover-not-done",
@@ -87,6 +83,9 @@ FOUND_AGAIN = frozenset(
         "soil-mesh-of-others",
         "soil-mesh-scatters",
         "tilt-between-not-proved",
+        "time-history-coarse",
+        "time-history-missed",
+        "time-history-soft",
     }
 )
 """Remarks that follow from deck, forces and mechanisms: verification finds them again. The others are the run's own."""

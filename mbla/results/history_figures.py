@@ -14,7 +14,7 @@ from mbla.solution.time_history.history import TimeHistoryResult
 from mbla.solution.time_history.judged import change_by_half_step
 from mbla.solution.time_history.step_rows import StepRows
 
-TAKEN, GIVEN = ("kinetic", "potential", "contacts", "friction", "ties"), ("base", "forces", "turning")
+TAKEN, GIVEN = ("kinetic", "potential", "contacts", "friction", "ties"), ("base", "forces", "numerical")
 """sides of the balance of energies, by their names in the rows of steps"""
 
 

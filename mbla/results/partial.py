@@ -172,7 +172,10 @@ def what_was_done(results: Results) -> str:
     """Of a stopped run, the end of the remark on it: how many load cases were done, and which were not."""
     left = list(results.not_done)
     if left and left[0] in {case.load_case.name for case in results.cases}:
-        left[0] += f" (its pushover came to step {len(results.case(left[0]).solution.further.pushover.curve) - 1})"
+        further = results.case(left[0]).solution.further
+        rows = further.time_history.rows
+        came = f"pushover came to step {len(further.pushover.curve) - 1}"
+        left[0] += f" (its {came if rows is None else f'time history came to {rows.times[-1]:.4g} s'})"
     more = f" and {len(left) - NAMED} more" if len(left) > NAMED else ""
     lacking = f"not done: {', '.join(left[:NAMED])}{more}" if left else "not written: its other files"
     return f"; load cases done: {_count(results)}; {lacking}"

@@ -76,7 +76,7 @@ def write_results(results: Results, out: OutputFolder, output: OutputSection) ->
 
 
 def write_record(results: Results, out: Files, *, every_position: bool) -> Results:
-    """Write what needs no picture and no geometry: the result file, listing, JSON, tables of positions and curves.
+    """Write what needs no picture and no geometry: the result file, listing, JSON, tables of curves and the like.
 
     Returns the results with the names of all files.
     """
@@ -84,6 +84,11 @@ def write_record(results: Results, out: Files, *, every_position: bool) -> Resul
         _write_table(results, out, "positions")
     if any(case.solution.further.pushover.curve for case in results.cases):
         _write_table(results, out, "curve")
+    asked = [case.load_case.time_history for case in results.cases if case.solution.further.time_history.histories]
+    if asked:
+        _write_table(results, out, "history")
+    if any(each is not None and each.interfaces for each in asked):
+        _write_table(results, out, "history_interfaces")
     files = sorted({*out.names, *(f"{out.stem}.{suffix}" for suffix in ("lst", "h5", "json"))})
     results = replace(results, files=tuple(files))
     out.write_text(f"{out.stem}.lst", listing(results, every_position=every_position))
@@ -93,11 +98,11 @@ def write_record(results: Results, out: Files, *, every_position: bool) -> Resul
 
 
 def _write_table(results: Results, out: Files, name: str) -> None:
-    """Positions of travelling loads, or curves of pushovers, as CSV."""
+    """Positions of travelling loads, curves of pushovers, or histories of structures in time, as CSV."""
     from mbla.results.tables.formats import table_csv  # few decks ask for them
-    from mbla.results.tables.tables import CURVE, SERIES, tables_of
+    from mbla.results.tables.tables import tables_of
 
-    table = {"positions": SERIES, "curve": CURVE}[name].name
+    table = {"positions": "series"}.get(name, name)
     out.write_text(f"{out.stem}_{name}.csv", table_csv(tables_of(results, (table,))[table]))
 
 

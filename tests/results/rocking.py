@@ -16,16 +16,18 @@ from mbla.model.motion.time_history import BaseMotion, ForceHistory, RecordedInt
 from mbla.questions.time_history import PeakDisplacement
 from mbla.results.results import CaseResult
 from mbla.solution.further.further import Further
-from mbla.solution.solution import Solution
+from mbla.solution.solution import Checks, Solution
 from mbla.solution.time_history.frames import Frames, PointSet
 from mbla.solution.time_history.history import HalfStep, Peaks, RecordedHistories, TimeHistoryResult
-from mbla.solution.time_history.judged import checks_of, judged
+from mbla.solution.time_history.judged import judged
 from mbla.solution.time_history.step_rows import HistoryEnd, StepRows
 
 STEP, DURATION, EVERY = 0.01, 4.0, 0.1
 GREATEST, BASE = 0.1, 0.05
 WEIGHT, RADIUS = 10.0, float(np.hypot(0.5, 1.0))
 N_BLOCKS, N_INTERFACES = 3, 2
+NAN = float("nan")
+NOT_CHECKED = Checks(NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, verified=True, failures=())
 
 
 def turns(times: FloatArray) -> FloatArray:
@@ -60,7 +62,7 @@ def step_rows() -> StepRows:
         ties=none,
         base=kinetic + potential + contacts,
         forces=none,
-        turning=none,
+        numerical=none,
         residuals=np.where(count == 0, np.nan, 1e-6),
         factorisations=2 * count,
         small_steps=8 * (count // 100),
@@ -80,7 +82,6 @@ def points() -> PointSet:
         arms=np.stack([below, corners], axis=1),
         frames=np.tile(np.array([[0.0, 0, 1], [1, 0, 0], [0, 1, 0]]), (4, 1, 1)),
         laws=np.zeros(4, dtype=np.int64),
-        interfaces=np.zeros(4, dtype=np.int64),
         areas=np.full(4, 0.25),
         stiffness=np.tile([2.5e8, 1e8, 1e8], (4, 1)),
         dashpot=np.full(4, 1e-3),
@@ -104,6 +105,7 @@ def frames() -> Frames:
         lengths_before=np.where(times == 0.0, 0.0, STEP),
         shifts=shift,
         turns=turn,
+        solid_of_block=np.arange(N_BLOCKS),
         momenta_before=six,
         momenta=six,
         velocities=six,
@@ -129,7 +131,7 @@ def histories() -> RecordedHistories:
         [np.sin(np.pi * times), np.pi * np.cos(np.pi * times), -(np.pi**2) * np.sin(np.pi * times)]
     )
     forces = np.zeros((n, 1, 3))
-    forces[:, 0, 0] = WEIGHT
+    forces[:, 0, 2] = WEIGHT
     return RecordedHistories(
         times=times,
         displacements=moved,
@@ -195,7 +197,7 @@ def asked() -> TimeHistory:
         interfaces=(RecordedInterface("foot", np.array([0, 1])),),
         stop_displacement=np.inf,
         stop_at_rest=False,
-        rigid=(np.array([1, 2]),),
+        rigid=(np.array([2]),),
         check=True,
         dead_levers=np.zeros((3, 9)),
         dead_following=np.zeros((3, 6)),
@@ -208,4 +210,4 @@ def rocking_case(case: CaseResult, **changed: Any) -> CaseResult:
     found = replace(rocks(), **changed)
     status, reason = judged(load_case, found)
     solution = Solution("non_associative", status, reason=reason, further=Further(time_history=found))
-    return CaseResult(load_case, solution, checks_of(()), status)
+    return CaseResult(load_case, solution, NOT_CHECKED, status)

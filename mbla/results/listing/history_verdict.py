@@ -26,8 +26,10 @@ def history_verdict(model: Model, case: CaseResult) -> str:
     """``rocks, peak 0.034 m at 2.1 s, comes back to 0.001 m; no block falls``; ``wall[3] falls at 3.4 s``."""
     found, asked = case.solution.further.time_history, case.load_case.time_history
     figures = history_figures(found)
-    if case.status is Status.NO_EQUILIBRIUM or figures is None or asked is None:
+    if case.status is Status.NO_EQUILIBRIUM:
         return case.load_case.question.no_equilibrium
+    if figures is None or asked is None:
+        return "NOT VERIFIED: no state of rest is known, from which it could be followed"
     told = motion_words(model, figures, found.end)
     if case.status is Status.TIME_LIMIT:
         begin = "NOT SOLVED (the time ran out)" if found.end is HistoryEnd.LATE else "NOT SOLVED (stopped)"
@@ -64,7 +66,7 @@ def peak_words(model: Model, figures: HistoryFigures) -> str:
 def _rest_words(model: Model, figures: HistoryFigures) -> str:
     length, rest, wander = model.units.length, figures.residual, figures.residual_uncertainty
     if wander > MOVING * figures.peak:
-        return f"still moves at the end, {rest:.2g} {length} off by {wander:.1g} either way"
+        return f"still moves at the end, about {rest:.2g} {length} (+- {wander:.1g})"
     if rest <= COMES_BACK * figures.peak:
         return f"comes back to {rest:.2g} {length}"
     return f"{rest:.2g} {length} of displacement stay"

@@ -81,7 +81,9 @@ STEPS.fields(
     ties=Field("energy taken by ties", "time_step", unit="moment"),
     base=Field("work of the motion of the base", "time_step", unit="moment"),
     forces=Field("work of forces over time, and of dead loads that turn", "time_step", unit="moment"),
-    turning=Field("numerical energy of bodies that turn about changing axes", "time_step", unit="moment"),
+    numerical=Field(
+        "numerical energy of bodies that turn about changing axes, and of steps that change", "time_step", unit="moment"
+    ),
     residuals=Field(
         "velocity that the step leaves out of balance, over that of free fall in it; nan in row 0",
         "time_step",
@@ -105,6 +107,7 @@ STATES.fields(
         attribute="shifts",
     ),
     rotation=Field("rotation vector of each block", "state block axis", unit="radian", attribute="turns"),
+    solid_of_block=Field("solid that each block is part of: by glue, or as a kinematic block", "block"),
     momenta_before=Field(
         "momentum and angular momentum about the centre of mass of each solid, before the step",
         "state solid component",
@@ -145,7 +148,6 @@ NO_POINTS = PointSet(
     arms=_NO.reshape(0, 2, 3),
     frames=_NO.reshape(0, 3, 3),
     laws=_WHOLE,
-    interfaces=_WHOLE,
     areas=_NO,
     stiffness=_NO.reshape(0, 3),
     dashpot=_NO,
@@ -173,7 +175,6 @@ SETS.fields(
     ),
     frames=Field("normal and tangents, in the frame of that body", "set_point direction axis"),
     law=Field("joint law, by its place among those of the deck; of ties their number", "set_point", attribute="laws"),
-    interfaces=Field("interface of the same two bodies as built; -1: they met later, ties", "set_point"),
     areas=Field("of the point, for strength", "set_point", unit="area"),
     stiffness=Field("of the point, across and along", "set_point direction", unit="spring"),
     dashpot=Field("damping of the point over its stiffness", "set_point", unit="time"),
@@ -192,14 +193,14 @@ HISTORIES.fields(
         "acceleration of each, absolute: that of the base is in it", "instant recorded_point axis", unit="acceleration"
     ),
     openings=Field(
-        "greatest opening of each interface that the deck names, overlap negative",
+        "greatest opening of each interface that the deck names, between corners that touched as built",
         "instant recorded_interface",
         unit="length",
     ),
     slips=Field("greatest slip of each", "instant recorded_interface", unit="length"),
     interface_forces=Field(
-        "normal force and shear along its tangents, sums over its points, compression positive",
-        "instant recorded_interface direction",
+        "force on the second body of each, the sum over its points",
+        "instant recorded_interface axis",
         unit="force",
         attribute="forces",
     ),
@@ -250,7 +251,7 @@ HALF_STEP.fields(
     HalfStep,
     peak=Field("greatest displacement of the same history with half of the step", unit="length"),
     time=Field("when that was", unit="time"),
-    residual=Field("displacement at its end of the block that is displaced most", unit="length"),
+    residual=Field("greatest displacement at its end", unit="length"),
     end=Field("why it ends"),
 )
 
@@ -375,7 +376,7 @@ def slip(of: InterfaceHistories) -> FloatArray:
     return of.found.slips.ravel()
 
 
-@INTERFACES_IN_TIME.quantity(dims="row direction", unit="force")
+@INTERFACES_IN_TIME.quantity(dims="row axis", unit="force")
 def force(of: InterfaceHistories) -> FloatArray:
-    """Sum over its points, compression positive."""
+    """On its second body, the sum over its points."""
     return of.found.forces.reshape(-1, 3)

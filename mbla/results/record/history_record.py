@@ -106,7 +106,7 @@ for _name, _words in {
     "ties": "taken by ties",
     "base": "work of the motion of the base",
     "forces": "work of forces over time, and of dead loads that turn",
-    "turning": "numerical, of bodies that turn",
+    "numerical": "numerical, of bodies that turn and steps that change",
 }.items():
     _declare_energy(_name, _words)
 

@@ -26,7 +26,7 @@ from mbla.solution.pushover.curve import pushover_remarks
 from mbla.solution.pushover.start import no_pushover, why_not_pushed
 from mbla.solution.sequence.tilting_table import NOT_PROVED_BETWEEN
 from mbla.solution.solution import WITH_VALUE, Solution, Status
-from mbla.solution.time_history.judged import history_remarks
+from mbla.solution.time_history.remarks import history_remarks
 from mbla.solution.verification.modes import checked_modes
 from mbla.solution.verification.tilting_table import GOOD
 

@@ -28,7 +28,7 @@ from mbla.solution.time_history.frame_record import FrameKeeper
 from mbla.solution.time_history.greatest import Greatest
 from mbla.solution.time_history.history import HalfStep, TimeHistoryResult
 from mbla.solution.time_history.instants import Instants
-from mbla.solution.time_history.judged import history_remarks
+from mbla.solution.time_history.remarks import history_remarks
 from mbla.solution.time_history.march import DeckStep, March
 from mbla.solution.time_history.moving_bodies import MovingBodies
 from mbla.solution.time_history.row_keeper import RowKeeper

@@ -1,24 +1,17 @@
-"""What may be said of a structure in time: its status with the reason, and what a reader of its figures must know."""
+"""What may be said of a structure in time: its status, and why it is not solved."""
 
 from __future__ import annotations
 
 import math
 
-import numpy as np
-
-from mbla.errors import Message
-from mbla.model.model import LoadCase, Model
+from mbla.model.model import LoadCase
 from mbla.solution.pushover.followed import STEP_DEPENDENCE
-from mbla.solution.solution import Checks, Status
+from mbla.solution.solution import Status
 from mbla.solution.time_history.history import TimeHistoryResult
-from mbla.solution.time_history.step_rows import HistoryEnd
+from mbla.solution.time_history.step_rows import HistoryEnd, StepRows
 
 MISSED = 1e-3
 """share of steps that did not converge, from which a history is approximate"""
-LARGE_SAG = 1e-3
-"""of the size of the structure: displacement under the dead load that is no longer small beside it"""
-STEPS_OF_PERIOD = 20.0
-"""of the first period, that are enough: the damping of a step, ωh/2, is at most π/20 there"""
 CUT_SHORT = {HistoryEnd.LATE: "the time limit was reached", HistoryEnd.STOPPED: "the run was stopped"}
 """ends that are not those of the structure, in words"""
 
@@ -27,21 +20,29 @@ def judged(case: LoadCase, found: TimeHistoryResult) -> tuple[Status, str]:
     """Status of a history by itself, before anything of it is verified, and why it is not solved."""
     rows, asked = found.rows, case.time_history
     if found.end is HistoryEnd.NOT_STANDING or rows is None or asked is None:
-        return Status.NO_EQUILIBRIUM, str(HistoryEnd.NOT_STANDING)
+        return Status.NOT_VERIFIED, "no state of rest was found on elastic joints, from which it could be followed"
     if found.end in CUT_SHORT:
         return Status.TIME_LIMIT, f"{CUT_SHORT[found.end]} at {rows.times[-1]:.4g} of {asked.duration:.4g} s"
-    why, steps, missed = [], len(rows) - 1, int(rows.missed[-1])
-    if missed > MISSED * steps:
-        why.append(f"{missed} of {steps} steps did not converge, and were taken as they were")
+    why = [missed_words(rows)] if is_rough(rows) else []
     if words := differs_by_step(found):
         why.append(words)
     return (Status.APPROXIMATE if why else Status.SOLVED), "; ".join(why)
 
 
-def checks_of(failures: tuple[Message, ...]) -> Checks:
-    """What a verification of a history found, which has no load factor, and no bounds."""
-    nan = math.nan
-    return Checks(nan, nan, nan, nan, nan, nan, nan, nan, nan, verified=not failures, failures=failures)
+def is_rough(rows: StepRows) -> bool:
+    """Whether more steps did not converge than may."""
+    return int(rows.missed[-1]) > MISSED * _steps(rows)
+
+
+def missed_words(rows: StepRows) -> str:
+    """How many did not converge, and what became of them."""
+    words = f"{rows.missed[-1]} of {_steps(rows)} steps were not solved even when halved four times: they were taken "
+    return f"{words}with the forces of the law and their momentum"
+
+
+def _steps(rows: StepRows) -> int:
+    """That were made, small ones as well."""
+    return max(len(rows) - 1 + int(rows.small_steps[-1]), 1)
 
 
 def differs_by_step(found: TimeHistoryResult) -> str:
@@ -53,7 +54,10 @@ def differs_by_step(found: TimeHistoryResult) -> str:
         return f"with half of the step it ends otherwise: {half.end}"
     if found.end is HistoryEnd.COLLAPSE or not change > STEP_DEPENDENCE:  # of what falls the peak says little
         return ""
-    return f"with half of the step the greatest displacement changes by {100.0 * change:.2g} %"
+    assert found.peaks is not None  # else the change is not known
+    low, high = sorted((half.peak, found.peaks.peak))
+    words = f"with half of the step the greatest displacement changes by {100.0 * change:.2g} %"
+    return f"{words}: it is known as a range, {low:.4g} to {high:.4g}"
 
 
 def change_by_half_step(found: TimeHistoryResult) -> float:
@@ -63,26 +67,6 @@ def change_by_half_step(found: TimeHistoryResult) -> float:
     """
     if found.half is None or found.peaks is None:
         return math.nan
-    peak = float(found.peaks.displacements.max())
+    peak = found.peaks.peak
     size = max(peak, 0.0 if math.isnan(found.sag) else found.sag, 1e-300)
     return abs(found.half.peak - peak) / size
-
-
-def history_remarks(model: Model, case: LoadCase, found: TimeHistoryResult) -> tuple[Message, ...]:
-    """What a reader must know although nothing is wrong, from the deck and what is on record."""
-    asked, remarks = case.time_history, list[Message]()
-    if asked is None or found.rows is None:
-        return ()
-    size = float(np.linalg.norm(np.ptp(model.blocks.vertices, axis=0)))
-    length = model.units.length
-    if found.sag > LARGE_SAG * size:
-        words = f"joints give by {found.sag:.2g} {length} under the dead load, {found.sag / size:.2g} of the size of "
-        remarks.append(Message("history-sag", f"{words}the structure: stiffer joints are meant, or its size matters"))
-    if asked.step * STEPS_OF_PERIOD > found.period:
-        words = f"the step of {asked.step:.4g} s is more than 1/{STEPS_OF_PERIOD:g} of the first period of "
-        words += f"{found.period:.4g} s: vibration is damped by the step, to {found.damping:.2g} of critical damping"
-        remarks.append(Message("history-long-steps", words))
-    missed, steps = int(found.rows.missed[-1]), len(found.rows) - 1
-    if 0 < missed <= MISSED * steps:
-        remarks.append(Message("history-steps-missed", f"{missed} of {steps} steps did not converge"))
-    return tuple(remarks)

@@ -32,6 +32,7 @@ from mbla.solution.verification.residuals import residuals_of
 from mbla.solution.verification.standing import standing_failures
 from mbla.solution.verification.strengths import point_strengths
 from mbla.solution.verification.tilting_table import never_failures, tilt_failures
+from mbla.solution.verification.time_history import history_failures
 from mbla.solution.verification.verify_convex import (
     InterfaceCase,
     convex_lock_failures,
@@ -75,6 +76,8 @@ def verify(assembly: Assembly, load_case: LoadCase, solution: Solution) -> Check
         words = f"blocks that are glued to each other move apart, by {apart:.2g} of the largest motion"
         failure = Message("glued-blocks-part", words)
         checks = replace(checks, verified=False, failures=(*checks.failures, failure))
+    if failures := history_failures(assembly, load_case, solution.further.time_history)[1]:
+        checks = replace(checks, verified=False, failures=(*checks.failures, *failures))
     return checks
 
 

@@ -25,6 +25,7 @@ from mbla.solution.thresholds import (
     SOLVED_EQUILIBRIUM,
     SOLVED_RESIDUAL,
 )
+from mbla.solution.time_history.step_rows import HistoryEnd
 from mbla.solution.verification.case import LoadedModel
 from mbla.solution.verification.elastic_law import elastic_residual
 from mbla.solution.verification.proofs import associative_bounds, certificate_failures
@@ -118,6 +119,8 @@ def _checked_without_mechanics(case: LoadedModel, solution: Solution) -> Checks:
 
 def verified_status(solution: Solution, checks: Checks) -> Status:
     """What may be claimed: the solver's status, lowered to what verification found."""
+    if solution.further.time_history.end is not HistoryEnd.NONE:
+        return Status.NOT_VERIFIED if solution.status in WITH_VALUE and not checks.verified else solution.status
     if solution.status not in WITH_VALUE:
         if solution.status in (Status.NO_EQUILIBRIUM, Status.UNBOUNDED) and not checks.verified:
             return Status.NOT_VERIFIED

@@ -69,7 +69,7 @@ def test_other_things_are_refused() -> None:
     with pytest.raises(TypeError, match="complex"):
         stored(replace(OUTER, flags=np.zeros(2, dtype=complex)))
     with pytest.raises(TypeError, match="set cannot"):
-        stored(replace(OUTER, by_name={"a": {1}}))
+        stored({"a": {1}})
     found = stored(OUTER)
     with pytest.raises((TypeError, ValueError)):
         restored(Outer, StoredRecord(found.tree.replace('"red"', '"blue"'), found.arrays))

@@ -10,7 +10,8 @@ import pytest
 
 from mbla.solution.solution import Status
 from mbla.solution.time_history.history import HalfStep, TimeHistoryResult
-from mbla.solution.time_history.judged import differs_by_step, history_remarks, judged
+from mbla.solution.time_history.judged import differs_by_step, judged
+from mbla.solution.time_history.remarks import history_remarks
 from mbla.solution.time_history.step_rows import HistoryEnd
 from tests.results.rocking import asked, rocks, step_rows
 from tests.results.synthetic import tower_model
@@ -37,12 +38,12 @@ def halved(peak: float, end: HistoryEnd = HistoryEnd.DURATION) -> HalfStep:
         (FOUND, Status.SOLVED, ""),
         (replace(FOUND, half=None), Status.SOLVED, ""),
         (missed(0), Status.SOLVED, ""),
-        (missed(1), Status.APPROXIMATE, "1 of 400 steps did not converge"),
+        (missed(1), Status.APPROXIMATE, "1 of 432 steps were not solved even when halved four times"),
         (replace(FOUND, half=halved(1.03 * PEAK)), Status.APPROXIMATE, "the greatest displacement changes by 3 %"),
         (replace(FOUND, half=halved(PEAK, HistoryEnd.COLLAPSE)), Status.APPROXIMATE, "half of the step it ends other"),
         (replace(FOUND, end=HistoryEnd.LATE), Status.TIME_LIMIT, "the time limit was reached at 4 of 4 s"),
         (replace(FOUND, end=HistoryEnd.STOPPED), Status.TIME_LIMIT, "the run was stopped at 4 of 4 s"),
-        (replace(FOUND, end=HistoryEnd.NOT_STANDING, **NOTHING), Status.NO_EQUILIBRIUM, "does not stand"),
+        (replace(FOUND, end=HistoryEnd.NOT_STANDING, **NOTHING), Status.NOT_VERIFIED, "no state of rest was found"),
     ],
 )
 def test_status(found: TimeHistoryResult, status: Status, reason: str) -> None:
@@ -68,8 +69,8 @@ def test_what_joints_give_anyway_is_no_difference() -> None:
     [
         (replace(FOUND, period=1.0), []),
         (replace(FOUND, period=np.nan), []),
-        (FOUND, ["history-long-steps"]),
-        (replace(FOUND, period=1.0, sag=0.01), ["history-sag"]),
+        (FOUND, ["time-history-coarse"]),
+        (replace(FOUND, period=1.0, sag=0.01), ["time-history-soft"]),
         (replace(FOUND, end=HistoryEnd.NOT_STANDING, **NOTHING), []),
     ],
 )
@@ -82,4 +83,4 @@ def test_a_few_missed_steps_are_told() -> None:
     long = {name: np.tile(getattr(rows, name), 3) for name in vars(rows)}
     many = replace(rows, **long | {"missed": np.ones(3 * len(rows), dtype=np.int64)})
     (remark,) = history_remarks(MODEL, CASE, replace(FOUND, period=1.0, rows=many))
-    assert remark == "1 of 1202 steps did not converge"
+    assert remark.startswith("1 of 1234 steps were not solved even when halved four times")

@@ -24,9 +24,10 @@ ENERGIES = {
     "ties": "ties",
     "base": "work of the base",
     "forces": "work of forces and turning loads",
-    "turning": "numerical, of bodies that turn",
+    "numerical": "numerical: turns, changes of the step",
 }
 """of a step, by the names in its rows: what was taken, then what was given"""
+ACCELERATIONS = "Accelerations at an impact depend on the step and on how stiff joints are; displacements hardly do."
 ROUNDING = 1e-9
 """of the largest energy, up to which one is zero"""
 
@@ -44,6 +45,7 @@ def history_sections(assembly: Assembly, case: CaseResult) -> dict[str, list[Blo
             *facts([Fact("status", status_name(case.status)), *_base(model, asked)]),
             *facts(_figures(assembly, case, figures)),
             *apart(_points(model, asked, found.histories)),
+            *paragraphs(ACCELERATIONS if asked.points and found.histories is not None else ""),
             *apart(_joints(assembly, load_case, found)),
         ],
         "Energies": _energies(model, found, figures),
@@ -78,8 +80,9 @@ def _figures(assembly: Assembly, case: CaseResult, figures: HistoryFigures) -> l
     stays = f"{figures.residual:.3g} {length}, {name(figures.residual_block)}"
     if figures.residual_uncertainty > 0.0:
         stays += f" (+- {figures.residual_uncertainty:.1g}: it still moves)"
-    rows.append(Fact("residual displacement", stays))
-    if figures.falls >= 0:
+    if figures.falls < 0:
+        rows.append(Fact("residual displacement", stays))
+    else:
         fallen = f"{name(figures.falls)} at {figures.fall_time:.4g} s; {counted(figures.fallen, 'block')} in all"
         rows.append(Fact("first to fall", fallen))
     for what, value, interface in (
@@ -139,8 +142,9 @@ def _energies(model: Model, found: TimeHistoryResult, figures: HistoryFigures) -
     """At most and at the end, with their balance."""
     rows = found.rows
     assert rows is not None  # there are figures
-    shown = {words: getattr(rows, name) for name, words in ENERGIES.items() if np.any(getattr(rows, name))}
-    least = ROUNDING * max((float(np.abs(values).max()) for values in shown.values()), default=0.0)
+    every = {words: getattr(rows, name) for name, words in ENERGIES.items()}
+    least = ROUNDING * max(float(np.abs(values).max()) for values in every.values())
+    shown = {words: values for words, values in every.items() if np.abs(values).max() > least}
     cells = [[words, *_most_and_last(values, least)] for words, values in shown.items()]
     unit = f"{model.units.force} {model.units.length}"
     says = (

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Any
 
 from mbla.results.listing.listing import case_section
 from mbla.results.listing.summary import summary_lines
 from mbla.results.listing.text import lines_of
-from mbla.solution.time_history.step_rows import HistoryEnd
+from mbla.solution.solution import Status
 from tests.results.rocking import rocking_case
 from tests.results.synthetic import tower_results
 
@@ -42,8 +43,8 @@ def test_sections_say_what_it_was_moved_by_what_it_did_and_what_it_took() -> Non
 
 
 def test_what_does_not_stand_has_no_figures() -> None:
-    gone = dict.fromkeys(("rows", "frames", "histories", "peaks", "half"))
-    case = rocking_case(RESULTS.cases[0], end=HistoryEnd.NOT_STANDING, **gone)
+    gone = dict[str, Any].fromkeys(("rows", "frames", "histories", "peaks", "half"))
+    case = replace(rocking_case(RESULTS.cases[0], **gone), status=Status.NO_EQUILIBRIUM)
     words = words_of(lines_of(case_section(RESULTS.assembly, case).blocks))
     assert "No equilibrium: the structure does not stand under its dead load." in words
     assert "status no equilibrium" in words

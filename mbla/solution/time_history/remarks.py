@@ -1,0 +1,44 @@
+"""What a reader of a time history must know although nothing is wrong, from its deck and what is on record."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from mbla.errors import Message
+from mbla.model.model import LoadCase, Model
+from mbla.solution.time_history.history import TimeHistoryResult
+from mbla.solution.time_history.judged import is_rough, missed_words
+
+SOFT = 1e-3
+"""Sag over the size of blocks from which the joints are told to be soft."""
+
+COARSE = 20.0
+"""Steps in the first period at least: a step damps by ωh/2 of critical damping, which is less than π/20 then."""
+
+
+def history_remarks(model: Model, case: LoadCase, result: TimeHistoryResult) -> tuple[Message, ...]:
+    """All of them.
+
+    model : as it may move under the load case
+    """
+    return tuple(_remarks(model, case, result))
+
+
+def _remarks(model: Model, case: LoadCase, result: TimeHistoryResult) -> Iterator[Message]:
+    history, rows = case.time_history, result.rows
+    if history is None or rows is None:
+        return
+    if result.sag > SOFT * float(model.blocks.sizes[model.free].mean()):
+        words = (
+            f"joints give by {result.sag:.2g} {model.units.length} under the dead load, more than a thousandth of the "
+        )
+        words += "size of blocks: their stiffness is low for figures of blocks that hardly deform"
+        yield Message("time-history-soft", words)
+    if history.step > result.period / COARSE:
+        words = f"a step of {history.step:g} s is long for the first period of {result.period:.3g} s: vibration of the "
+        words += (
+            f"joints is damped by the step, to {result.damping:.2g} of critical damping; rocking and sliding are not"
+        )
+        yield Message("time-history-coarse", words)
+    if rows.missed[-1] > 0 and not is_rough(rows):
+        yield Message("time-history-missed", missed_words(rows))

@@ -1,0 +1,116 @@
+"""A run of a deck whose structure is followed in time, its files, and their verification."""
+
+from __future__ import annotations
+
+import csv
+import json
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from mbla.process.run_options import RunOptions
+from mbla.results.hdf5.result_file import read_results_hdf5, write_results_hdf5
+from mbla.results.results import Results
+from mbla.results.status_file import HISTORY_HEADER
+from mbla.run import run
+from mbla.solution.solution import Status
+from mbla.solution.time_history.step_rows import HistoryEnd
+from mbla.verify import verify_file
+from tests.shaken import SHAKEN
+
+
+def run_of(folder: Path, text: str, *overrides: str) -> tuple[Results, Path]:
+    deck = folder / "block.yaml"
+    deck.write_text(text, encoding="utf-8")
+    return run(deck, RunOptions(overrides=overrides)), folder / "block.out"
+
+
+@pytest.fixture(scope="module")
+def shaken(tmp_path_factory: pytest.TempPathFactory) -> tuple[Results, Path]:
+    return run_of(tmp_path_factory.mktemp("shaken"), SHAKEN)
+
+
+def test_it_rocks(shaken: tuple[Results, Path]) -> None:
+    results, folder = shaken
+    (case,) = results.cases
+    assert (case.status, results.exit_code) == (Status.SOLVED, 0)
+    record: dict[str, Any] = json.loads((folder / "block.json").read_text(encoding="utf-8"))["cases"][0]
+    found = record["time_history"]
+    assert found["end"] == HistoryEnd.DURATION
+    assert 0.02 < found["peak"] < 0.1
+    assert found["steps"] == 120
+    assert found["balance"] < 1e-9
+    assert record["load_factor"] is None
+    assert found["verdict"].startswith("rocks, peak ")
+    assert found["points"][0]["peak"] == pytest.approx(2.0 * found["peak"], rel=0.02)
+
+
+def test_tables_of_histories(shaken: tuple[Results, Path]) -> None:
+    _, folder = shaken
+    with (folder / "block_history.csv").open(encoding="utf-8", newline="") as file:
+        rows = list(csv.DictReader(file))
+    assert [row["point"] for row in rows[:2]] == ["base", "top"]
+    base = np.array([float(row["absolute_displacement_x [m]"]) for row in rows if row["point"] == "base"])
+    top = [row for row in rows if row["point"] == "top"]
+    relative, absolute = (
+        np.array([float(row[f"{kind}_x [m]"]) for row in top]) for kind in ("displacement", "absolute_displacement")
+    )
+    assert absolute == pytest.approx(base + relative)
+    with (folder / "block_history_interfaces.csv").open(encoding="utf-8", newline="") as file:
+        feet = list(csv.DictReader(file))
+    assert {row["interface"] for row in feet} == {"foot"}
+    assert len(feet) == len(base) == 121
+
+
+def test_the_status_file_has_a_line_for_each_step(shaken: tuple[Results, Path]) -> None:
+    lines = (shaken[1] / "block.sta").read_text(encoding="utf-8").splitlines()
+    begin = lines.index(HISTORY_HEADER)
+    steps = [line for line in lines[begin + 1 :] if not line.startswith("#")]
+    assert len(steps) == 120
+    assert float(steps[-1].split()[1]) == pytest.approx(0.6)
+    assert len(steps[0]) == len(HISTORY_HEADER)
+
+
+def test_the_file_agrees_with_what_is_recomputed(shaken: tuple[Results, Path]) -> None:
+    results, disagreements = verify_file(shaken[1] / "block.h5")
+    assert (disagreements, results.unconfirmed, results.exit_code) == ((), (), 0)
+
+
+def test_what_is_changed_in_it_is_found(shaken: tuple[Results, Path], tmp_path: Path) -> None:
+    sound = read_results_hdf5(shaken[1] / "block.h5")
+    (case,) = sound.cases
+    found = case.solution.further.time_history
+    assert found.rows is not None
+    work = found.rows.base * 1.01
+    forged = replace(found, rows=replace(found.rows, base=work))
+    other = case.with_further(replace(case.solution.further, time_history=forged), ())
+    path = tmp_path / "forged.h5"
+    path.write_bytes(write_results_hdf5(replace(sound, cases=(other,))))
+    results, disagreements = verify_file(path)
+    assert results.cases[0].status is Status.NOT_VERIFIED
+    assert disagreements
+    assert results.exit_code == 4
+
+
+def test_what_does_not_stand_is_not_followed(tmp_path: Path) -> None:
+    slab = "  - box: {group: slab, material: stone, min: [0.1, 0, 1], max: [0.9, 0.5, 1.2]}\nsupports"
+    results, folder = run_of(tmp_path, SHAKEN.replace("supports", slab, 1))
+    (case,) = results.cases
+    assert case.status is Status.NO_EQUILIBRIUM
+    assert case.solution.further.time_history.end is HistoryEnd.NONE
+    assert results.exit_code == 5
+    assert "no equilibrium" in (folder / "block.lst").read_text(encoding="utf-8")
+    assert verify_file(folder / "block.h5")[1] == ()
+
+
+def test_a_time_limit_leaves_what_was_followed(tmp_path: Path) -> None:
+    results, folder = run_of(tmp_path, SHAKEN, "analysis.time_limit=0.4", "load_cases.quake.time_history.duration=60")
+    (case,) = results.cases
+    assert (case.status, results.exit_code) == (Status.TIME_LIMIT, 7)
+    assert case.solution.further.time_history.rows is not None
+    words = (folder / "block.lst").read_text(encoding="utf-8")
+    assert "NOT SOLVED (the time ran out): followed to" in words
+    assert json.loads((folder / "block.json").read_text(encoding="utf-8"))["cases"][0]["time_history"]["peak"] is None
