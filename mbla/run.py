@@ -304,7 +304,7 @@ def _in_time(
     from mbla.solution.time_history.follow import Followed, follow
 
     def case_of(found: Followed) -> CaseResult:
-        answer = with_history(assembly, stands, *found)
+        answer = with_history(assembly, stands, *found[:2])
         return _finished(assembly, CaseResult(answer.load_case, answer.solution, answer.checks, answer.status))
 
     def so_far(make: Callable[[], Followed]) -> None:

@@ -19,14 +19,17 @@ def add(commands: Any) -> None:
     command.set_defaults(action=plot)
     add_result_and_output(command, "PNG, SVG or PDF file, by its name, of one picture; or a folder")
     words = (
-        "model, mechanism, forces, history, curve (of a pushover), several with commas, or all "
+        "model, mechanism, forces, history, curve (of a pushover, or over time), several with commas, or all "
         "(default: the first three, and the history of a load that travels; the mechanism where -o names a file)"
     )
     command.add_argument("--kind", metavar="KIND", help=words)
     command.add_argument(
         "--case", metavar="NAME", help="only this load case; of a load that travels the worst position"
     )
-    words = "moving pictures of the mechanisms in the place of pictures, with --kind curve of the steps of a pushover"
+    words = (
+        "moving pictures of the mechanisms, or of structures in time, in the place of pictures, with --kind curve of "
+        "the steps of a pushover"
+    )
     command.add_argument("--animate", choices=["gif", "mp4"], help=words)
     words = "front, back, left, right, top, iso, below, auto, or AZIMUTH,ELEVATION in degrees, as --view=-60,25"
     command.add_argument("--view", default="auto", metavar="VIEW", help=words)

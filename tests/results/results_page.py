@@ -42,7 +42,10 @@ RECORD: tuple[Key, ...] = (
 CELLS = {
     "blocks": "blocks as polyhedra, in their order; no two share a point",
     "frames": "(…_frame_NNN.vtu) the same after a finite motion, from as built to as drawn, which STEM_CASE.pvd plays; "
-    "(…_pushed_NNN.vtu) where they are at the steps of a pushover, which STEM_CASE_pushed.pvd plays",
+    "(…_pushed_NNN.vtu) where they are at the steps of a pushover, which STEM_CASE_pushed.pvd plays; "
+    "(…_history_NNN.vtu) in time, which STEM_CASE_history.pvd plays",
+    "forces": "(…_history_forces_NNN.vtu) contact points that bear in time as vertices where they are, which "
+    "STEM_CASE_history_forces.pvd plays",
     "contacts": "contact points as vertices",
     "interfaces": "interfaces as polygons, by their outer boundary; holes are not drawn, areas and forces count them",
     "thrust": "points of application of resultants as vertices, outside a joint its edge; thrust lines between them",

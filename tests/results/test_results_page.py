@@ -27,7 +27,9 @@ PUSHED = (
     .replace("push: {live", "push: {pushover: {step: 0.2}, live")
 )
 DATASET_TYPES = {"float": "float64", "int": "int64", "bool": "uint8", "byte": "uint8"}
-VTK_KINDS = ("blocks", "frames", "contacts", "interfaces", "thrust", "hinges", "loads", "ties", "modes", "supports")
+VTK_KINDS = (
+    *("blocks", "frames", "forces", "contacts", "interfaces", "thrust", "hinges", "loads", "ties", "modes", "supports"),
+)
 
 
 @pytest.fixture(scope="module")
@@ -160,7 +162,7 @@ def kind_of(path: Path) -> str:
     """Kind of a VTU file as the page has it: by the end of its name."""
     found = re.search(r"_(frame|pushed|[a-z]+)(_\d+)?$", path.stem)
     assert found is not None
-    return "frames" if found[1] in ("frame", "pushed") else found[1]
+    return "frames" if found[1] in ("frame", "pushed", "history") else found[1]
 
 
 def test_arrays_for_paraview(full: Path, pushed: Path) -> None:

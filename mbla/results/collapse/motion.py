@@ -14,6 +14,8 @@ from mbla.model.model import Model
 from mbla.model.pose import paths_of, screws
 from mbla.model.solids.blocks import Blocks
 from mbla.results.results import CaseResult
+from mbla.solution.time_history.frames import Frames
+from mbla.solution.time_history.history import TimeHistoryResult
 
 SHARE_OF_SIZE = 0.1
 """largest displacement over the diagonal of the box around the free blocks"""
@@ -28,12 +30,16 @@ SAME_POSE = 1e-7
 def drawn_motion(model: Model, case: CaseResult | None) -> FloatArray:
     """Displacement and rotation of each block as drawn, (n_blocks, 6) m and rad.
 
-    From the mechanism; without equilibrium from the motion that proves it; zero where there is neither or no case.
+    From the mechanism; without equilibrium from the motion that proves it; of a structure in time where it is displaced
+    most, or has fallen, to no smaller scale than its own; zero where there is none of these or no case.
     """
     if case is not None and case.solution.mechanics is not None:
         motion = case.solution.mechanics.mechanism
     elif case is not None and case.solution.certificate is not None:
         motion = case.solution.certificate
+    elif case is not None and (frames := case.solution.further.time_history.frames) is not None:
+        motion = history_motion(frames, peak_state(case.solution.further.time_history))
+        return max(motion_scale(model, motion), 1.0) * motion
     else:
         return np.zeros((len(model.blocks), 6))
     return motion_scale(model, motion) * motion
@@ -133,9 +139,24 @@ def rigid_frames(blocks: Blocks, motion: FloatArray, origin: FloatArray, count: 
 def pushed_motions(case: CaseResult) -> list[FloatArray]:
     """Twist of each block from where it was built to where it is at each step of a pushover, (n_blocks, 6) each."""
     steps = case.solution.further.pushover.rows
-    found = []
-    for pose in steps.poses if steps is not None else ():
-        turned = pose.rotation_vectors
-        paths = paths_of(turned)[1]
-        found.append(np.hstack([np.linalg.solve(paths, pose.shift[:, :, None])[:, :, 0], turned]))
-    return found
+    return [twists_to(pose.shift, pose.rotation_vectors) for pose in (steps.poses if steps is not None else ())]
+
+
+def history_motion(frames: Frames, state: int) -> FloatArray:
+    """The same of a state of a structure in time, relative to the base, (n_blocks, 6)."""
+    return twists_to(frames.shifts[state], frames.turns[state])
+
+
+def peak_state(found: TimeHistoryResult) -> int:
+    """The state that is kept next to the greatest displacement; the last one of a structure that falls."""
+    assert found.frames is not None  # a structure that stands has states
+    assert found.peaks is not None
+    if found.peaks.first_to_fall >= 0:
+        return len(found.frames) - 1
+    return int(np.abs(found.frames.times - found.peaks.times[found.peaks.block]).argmin())
+
+
+def twists_to(shifts: FloatArray, turns: FloatArray) -> FloatArray:
+    """Twists (n_blocks, 6) whose screws lead to displacements and rotation vectors, (n_blocks, 3) each."""
+    paths = paths_of(turns)[1]
+    return np.hstack([np.linalg.solve(paths, shifts[:, :, None])[:, :, 0], turns])

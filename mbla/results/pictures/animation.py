@@ -18,12 +18,13 @@ import numpy as np
 
 from mbla.arrays import evenly
 from mbla.errors import FileError, UsageError
-from mbla.results.collapse.motion import pushed_motions
+from mbla.results.collapse.motion import history_motion, pushed_motions
 from mbla.results.pictures.drawing import draw_on, drawing_of, extent_of
 from mbla.results.pictures.options import PictureOptions
 from mbla.results.pictures.page import open_frames
 from mbla.results.pictures.scene import PictureScene, scene_of
 from mbla.results.results import CaseResult, Results
+from mbla.solution.time_history.history import TimeHistoryResult
 
 FORMATS = ("gif", "mp4")
 STEPS = 12
@@ -31,6 +32,8 @@ STEPS = 12
 FRAMES_PER_SECOND = 12
 MOST_FRAMES = 60
 """of a pushover, steps evenly chosen"""
+MOST_IN_TIME = 180
+"""of a structure in time: fifteen seconds of a film; what takes longer goes by faster"""
 LARGEST = {"gif": (800, 500), "mp4": (1280, 800)}
 """pixels of a frame; a GIF keeps every one of them in 256 colours, and is for slides and pages"""
 COLOURS = 128
@@ -47,6 +50,8 @@ def format_of_film(path: Path) -> str:
 
 def write_animation(results: Results, case: CaseResult, path: Path, options: PictureOptions | None = None) -> None:
     """The mechanism of one load case as a GIF or MP4 that repeats, or by the kind ``curve`` the steps of its pushover.
+
+    A structure that was followed in time moves as it did, true to scale, in its own time where that is not too long.
 
     The same result gives the same GIF.
 
@@ -75,6 +80,11 @@ def write_animation(results: Results, case: CaseResult, path: Path, options: Pic
         scenes = [replace(widest, drawn=pushed[step]) for step in shown]
         film = list(_frames([widest, *scenes[-1:]], scenes, options))
         film += film[-1:] * (FRAMES_PER_SECOND // 2)
+    elif case.solution.further.time_history.frames is not None:
+        scenes = _in_time(widest, case.solution.further.time_history, options.scale)
+        farthest = max(scenes, key=lambda scene: float(np.abs(scene.drawn).max(initial=0.0)))
+        film = list(_frames([farthest, scenes[0]], scenes, options))
+        film += film[-1:] * (FRAMES_PER_SECOND // 2)
     else:
         forth = list(_frames([widest], (widest.moved_to(share * options.scale) for share in displacements()), options))
         film = [*forth, *forth[-2:0:-1]]
@@ -83,6 +93,19 @@ def write_animation(results: Results, case: CaseResult, path: Path, options: Pic
         path.write_bytes(image)
     except OSError as error:
         raise FileError("file-not-written", f"{path}: {error.strerror or error}") from error
+
+
+def _in_time(widest: PictureScene, found: TimeHistoryResult, scale: float) -> list[PictureScene]:
+    """States of a structure in time, as many as a film in its own time has, at most ``MOST_IN_TIME``."""
+    frames = found.frames
+    assert frames is not None  # asked for where there are
+    seconds = float(frames.times[-1] - frames.times[0])
+    most = min(MOST_IN_TIME, max(round(seconds * FRAMES_PER_SECOND), 2))
+    how = "" if scale == 1.0 else f", {scale:g} times its displacements"
+    return [
+        replace(widest, drawn=scale * history_motion(frames, state), moment=f"at {frames.times[state]:.2f} s{how}")
+        for state in evenly(len(frames), most)
+    ]
 
 
 def fitted_options(options: PictureOptions, kind: str) -> PictureOptions:

@@ -100,7 +100,7 @@ def drawing_of(scene: PictureScene, kind: str, view: tuple[float, float] | None 
 
 def _parts(scene: PictureScene) -> list[tuple[str, str]]:
     """Names of the parts that move, where they have a colour each."""
-    if not scene.motion.any():
+    if not scene.motion.any() or scene.moment:  # in time every block moves by itself
         return []
     count = int(scene.clusters.max(initial=0))
     legend = [("at rest", REST)] * bool(((scene.clusters == 0) & ~scene.slow & ~scene.model.fixed).any())

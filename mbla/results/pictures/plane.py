@@ -16,6 +16,7 @@ from mbla.arrays import FloatArray, IntArray
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import Model
 from mbla.model.solids.blocks import Blocks
+from mbla.results.collapse.motion import drawn_motion
 from mbla.results.pictures.camera import Camera, axes_of
 from mbla.results.pictures.geometry import block_edges
 from mbla.results.pictures.marks.marks import Mark, moved
@@ -108,6 +109,8 @@ def _in_plane(scene: PictureScene, normal: FloatArray) -> bool:
     """Loads and motion leave nothing across the plane."""
     case, free = scene.case.load_case, scene.model.free
     motion = scene.mechanics.mechanism if scene.mechanics is not None else scene.case.solution.certificate
+    if motion is None and scene.case.load_case.time_history is not None:
+        motion = drawn_motion(scene.model, scene.case)
     size = float(scene.model.blocks.sizes.max())
     # moments are forces times length, rotations velocities over length
     rows = [(case.live_load[free], 1 / size), (case.dead_load[free], 1 / size)]

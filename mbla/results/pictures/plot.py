@@ -15,6 +15,7 @@ from mbla.results.pictures.influence_line import draw_series
 from mbla.results.pictures.options import KINDS, USUAL_KINDS, PictureOptions, format_of, is_single
 from mbla.results.pictures.page import PictureFile, write_pictures
 from mbla.results.pictures.scene import PictureScene, scene_of
+from mbla.results.pictures.time_history import draw_time_history
 from mbla.results.results import CaseResult, Results
 from mbla.results.series import chosen_cases, detailed_cases, no_such_case, series_of
 
@@ -23,8 +24,8 @@ def plot_results(results: Results, target: Path, stem: str, options: PictureOpti
     """Pictures of a result; the paths written.
 
     ``STEM_model.png``, and for each load case ``STEM_CASE.png`` (mechanism), ``STEM_CASE_forces.png`` and
-    ``STEM_CASE_history.png``, of a pushover ``STEM_CASE_curve.png``; ``STEM_SERIES_history.png`` for the positions of a
-    travelling load, which is among the usual kinds. With
+    ``STEM_CASE_history.png``, of a pushover or a structure in time ``STEM_CASE_curve.png``;
+    ``STEM_SERIES_history.png`` for the positions of a travelling load, which is among the usual kinds. With
     ``options.animate`` ``STEM_CASE.gif`` or ``.mp4`` for each load case that has a motion.
 
     target : a file with the suffix .png, .svg or .pdf, for a single picture; else a folder, created if missing
@@ -65,7 +66,8 @@ def pictures_of(results: Results, cases: Sequence[CaseResult], options: PictureO
     pictures = [PictureFile("_model", of(cases[0], "model"))] if "model" in options.kinds else []
     names = _mechanism_names([case.load_case.name for case in cases])
     for case in cases:
-        drawn = {"model"} if case.solution.further.pushover.curve or len(options.kinds) == 1 else {"model", "curve"}
+        curve = _has_curve(case) or len(options.kinds) == 1
+        drawn = {"model"} if curve else {"model", "curve"}
         if case.load_case.name != case.load_case.deck_name == options.case:
             drawn.add("history")  # of all positions, below
         for kind in (kind for kind in options.kinds if kind not in drawn):
@@ -78,6 +80,12 @@ def pictures_of(results: Results, cases: Sequence[CaseResult], options: PictureO
                 write = partial(draw_series, scene=scene, series=series, options=options)
                 pictures.append(PictureFile(f"_{series.name}_history", write))
     return pictures
+
+
+def _has_curve(case: CaseResult) -> bool:
+    """Whether there is a pushover, or a structure that was followed in time."""
+    further = case.solution.further
+    return bool(further.pushover.curve) or further.time_history.rows is not None
 
 
 def _mechanism_names(cases: Sequence[str]) -> dict[str, str]:
@@ -125,7 +133,9 @@ def draw_picture(path: Path, scene: PictureScene, kind: str, options: PictureOpt
     Raises as ``plot_case`` does.
     """
     if kind in ("history", "curve"):
-        (draw_history if kind == "history" else draw_curve)(path, scene, options)
+        in_time = scene.case.load_case.time_history is not None
+        draw = draw_history if kind == "history" else draw_time_history if in_time else draw_curve
+        draw(path, scene, options)
         return
     drawing.draw_picture(path, scene, kind, options)
 

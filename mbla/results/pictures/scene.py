@@ -12,14 +12,20 @@ from mbla.arrays import BoolArray, FloatArray, IntArray
 from mbla.results.collapse.collapse import NOTABLE, Collapse, Failure, failure_of, fall_of
 from mbla.results.collapse.interface_modes import InterfaceMotion, within_soil
 from mbla.results.collapse.joint_planes import cluster_joints
-from mbla.results.collapse.motion import drawn_motion, largest_displacements, moved_vertices
+from mbla.results.collapse.motion import (
+    drawn_motion,
+    history_motion,
+    largest_displacements,
+    moved_vertices,
+    peak_state,
+)
 from mbla.results.collapse.thrust import points_to_draw
 from mbla.results.force_range import other_end
 from mbla.results.listing.places import counted_soils
 from mbla.results.listing.sections.mechanism_words import mechanism_summary
 from mbla.results.listing.text import counted, number
 from mbla.results.listing.verdict_words import verdict
-from mbla.results.outcome import result_of
+from mbla.results.outcome import history_of, result_of
 from mbla.results.pictures.geometry import Slab, ground_slabs
 from mbla.results.pictures.marks.marks import outer_rows
 from mbla.results.pictures.options import PictureOptions
@@ -38,12 +44,14 @@ class PictureScene(Scene):
 
     drawn : (n_blocks, 6) displacement and rotation of each block as drawn, m and rad; zero in pictures at rest
     shown_cases : those whose loads a picture of the model shows
+    moment : of a structure in time, when that is and how it is drawn, in words
     """
 
     case: CaseResult
     results: Results
     drawn: FloatArray
     shown_cases: tuple[CaseResult, ...] = ()
+    moment: str = ""
 
     @property
     def mechanics(self) -> Mechanics | None:
@@ -57,12 +65,13 @@ class PictureScene(Scene):
 
     def moved_to(self, scale: float) -> PictureScene:
         """The same moved by a multiple of the usual displacements."""
-        return replace(self, drawn=scale * drawn_motion(self.model, self.case))
+        drawn = scale * drawn_motion(self.model, self.case)
+        return replace(self, drawn=drawn, moment=_moment(self.case, drawn))
 
     @property
     def is_result(self) -> bool:
         """Whether forces and mechanism are a result of the case; else the picture must say that they are not."""
-        return result_of(self.case) is not None
+        return result_of(self.case) is not None or history_of(self.case) is not None
 
     @cached_property
     def size(self) -> float:
@@ -183,6 +192,8 @@ class PictureScene(Scene):
             lines.append(mechanism_summary(model, self.collapse, self.failure))
         elif case.solution.certificate is not None:
             lines.append("drawn: the motion in which the dead load does more work than the joints take")
+        elif self.moment:
+            lines.append(self.moment)
         else:
             lines.append("drawn at rest: there is no mechanism")
         return lines
@@ -199,9 +210,23 @@ class PictureScene(Scene):
         status = self.case.status
         if kind == "model" or status in (Status.SOLVED, Status.UNBOUNDED, Status.NO_EQUILIBRIUM):
             return "" if kind == "model" or self.is_result or self.mechanics is None else "NO RESULT: no collapse load"
+        if status is Status.APPROXIMATE and self.case.load_case.time_history is not None:
+            return f"APPROXIMATE: {self.case.solution.reason}"
         if status is Status.APPROXIMATE and self.is_result:
             return "APPROXIMATE: residuals are larger than for a solved case"
         return "NOT VERIFIED: no result" if self.mechanics is None else "NOT VERIFIED: no result, the best iterate"
+
+
+def _moment(case: CaseResult, drawn: FloatArray) -> str:
+    """When a structure in time is displaced as drawn, and how many times that is; empty for others."""
+    found = case.solution.further.time_history
+    if found.frames is None or case.solution.certificate is not None:
+        return ""
+    state = peak_state(found)
+    true, most = history_motion(found.frames, state), float(np.abs(drawn).max(initial=0.0))
+    times = most / max(float(np.abs(true).max(initial=0.0)), 1e-300)
+    how = "true displacements" if abs(times - 1.0) < 1e-6 else f"{times:.3g} times its displacements"
+    return f"drawn: at {found.frames.times[state]:.4g} s, {how}"
 
 
 def bounding_edges(scene: PictureScene, edges: IntArray) -> IntArray:

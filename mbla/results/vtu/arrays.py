@@ -35,8 +35,16 @@ _LOADS = (
     integer("figures", "what reactions and motion are, as of interfaces"),
 )
 _TIES = {each.name: each for each in TIES.quantities}
+_VELOCITY = real("velocity", "of states in time: relative to the base, after the step", "speed", "axis")
+_FORCES_IN_TIME = (
+    real("contact_force", "on the second body, in the axes of the deck", "force", "axis"),
+    real("normal_force", "compression positive", "force"),
+    real("shear_force", "along the joint", "force"),
+)
 OTHERS: dict[tuple[str, str], tuple[Quantity, ...]] = {
     **{(file, "points"): (_MOTION,) for file in ("blocks", "frames", "contacts", "interfaces", "thrust", "hinges")},
+    ("frames", "points"): (_MOTION, _VELOCITY),
+    ("forces", "points"): _FORCES_IN_TIME,
     ("thrust", "cells"): (
         integer("kind", "0 point of application, 1 piece of a thrust line"),
         integer("line", "number of the thrust line from 0, -1 for points"),

@@ -21,6 +21,7 @@ from mbla.results.pictures.camera import axes_of, view_of_case
 from mbla.results.quantities.blocks import names_of
 from mbla.results.record.scene import Scene, scene_of
 from mbla.results.results import Results
+from mbla.results.vtu.history import HistoryStates
 from mbla.results.vtu.loads import loads_mesh, supports_mesh
 from mbla.results.vtu.meshes import (
     Mesh,
@@ -35,7 +36,7 @@ from mbla.results.vtu.meshes import (
 from mbla.results.vtu.ties import ties_mesh
 
 MOST_STEPS = 101
-"""of a pushover that have files, evenly chosen"""
+"""of a pushover, or states in time, that have files, evenly chosen"""
 MESHES: dict[str, Callable[[Scene], Mesh | None]] = {
     "blocks": blocks_mesh,
     "contacts": contacts_mesh,
@@ -59,6 +60,8 @@ def write_mesh_files(results: Results, out: OutputFolder, frames: int) -> None:
         files = _write_scene(scene, stem, out)
         if _write_animation(scene, stem, out, frames):
             files["pushed"] = f"{stem}_pushed.pvd"
+        if _write_history(scene, f"{stem}_history", out):
+            files["history"] = f"{stem}_history.pvd"
         if scene.moves:
             files["animation"] = f"{stem}.pvd"
         records[case.load_case.name] = case_record(results, scene, files)
@@ -100,6 +103,25 @@ def _write_animation(scene: Scene, stem: str, out: OutputFolder, frames: int) ->
         name = f"{stem}_pushed"
         _write_frames(scene, name, name, {float(step): pushed[step] for step in steps}, out)
     return bool(pushed)
+
+
+def _write_history(scene: Scene, stem: str, out: OutputFolder) -> bool:
+    """States of a structure in time, and its contact forces at them; whether there are such."""
+    found = None if scene.case is None else scene.case.solution.further.time_history.frames
+    if found is None:
+        return False
+    kinds: dict[str, Callable[[HistoryStates, int], Mesh | None]]
+    kinds = {stem: HistoryStates.blocks, f"{stem}_forces": HistoryStates.forces}
+    states, shown = HistoryStates.of(scene, found), evenly(len(found), MOST_STEPS)
+    for name, mesh_of in kinds.items():
+        files = {f"{name}_{i:03d}.vtu": state for i, state in enumerate(shown)}
+        written = {
+            file: float(found.times[state])
+            for file, state in files.items()
+            if _write(mesh_of(states, state), file, out)
+        }
+        out.write_text(f"{name}.pvd", collection_pvd(written))
+    return True
 
 
 def _write_frames(

@@ -10,7 +10,7 @@ does not give a script its folder, call os.chdir(folder of the results) in the s
 Views: structure (blocks by group, supports), mechanism (blocks by the part that they move with, hinges, sliding, ghost
 of the structure), thrust (resultant of each interface, thrust lines by eccentricity), utilisation (shear and torsion
 over what the joint carries of both), loads (dead, live, reactions), animation (the mechanism with finite rotations),
-pushed (the steps of a pushover).
+pushed (the steps of a pushover), history (a structure in time).
 """
 
 from __future__ import annotations
@@ -248,6 +248,7 @@ VIEWS: dict[str, tuple[str, Callable[[Picture], None]]] = {
     "ties": ("ties", ties),
     "animation": ("animation", animation),
     "pushed": ("pushed", lambda picture: animation(picture, "pushed")),
+    "history": ("history", lambda picture: animation(picture, "history")),
 }
 """views by name: the file without which there is none, and who draws it"""
 
@@ -274,7 +275,7 @@ def build(case: str, name: str, folder: Path) -> Picture:
 
 def save(picture: Picture, case: str, name: str, folder: Path) -> None:
     """As PNG; an animation as one PNG per frame."""
-    write = simple.SaveAnimation if name in ("animation", "pushed") else simple.SaveScreenshot
+    write = simple.SaveAnimation if name in ("animation", "pushed", "history") else simple.SaveScreenshot
     write(str(folder / f"{RESULT['stem']}_{case}_{name}.png"), picture.view, ImageResolution=SIZE)
 
 

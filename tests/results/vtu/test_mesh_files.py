@@ -82,7 +82,7 @@ def kind_of(path: Path, results: Results) -> str:
 
 
 def test_every_kind_of_file_is_described() -> None:
-    assert {*MESHES, "frames", "supports"} == set(CELLS)
+    assert {*MESHES, "frames", "forces", "supports"} == set(CELLS)
 
 
 @pytest.mark.parametrize("which", ["arch", "guided"])
@@ -110,7 +110,7 @@ def test_every_array_of_the_table_is_written_where_there_is_something(arch: Any)
         mesh = meshio.read(folder / f"deck_push_{kind}.vtu")
         for on, data in (("points", mesh.point_data), ("cells", mesh.cell_data)):
             assert set(described(kind, on)) - LABELS <= set(data), kind
-    assert {kind_of(path, results) for path in folder.glob("*.vtu")} == set(CELLS) - {"ties", "modes"}
+    assert {kind_of(path, results) for path in folder.glob("*.vtu")} == set(CELLS) - {"ties", "modes", "forces"}
 
 
 def test_ties_are_lines_with_their_forces_and_strips_points(tmp_path: Path) -> None:
