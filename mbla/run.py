@@ -6,7 +6,7 @@ import time
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, TypeVar
+from typing import TypeVar
 
 from mbla.assembly import Assembly, build_assembly
 from mbla.contacts.known import KnownContacts
@@ -26,15 +26,13 @@ from mbla.results.status_file import StatusFile
 from mbla.results.write import write_results
 from mbla.solution.cone_solvers.cone_solution import Log
 from mbla.solution.sequence.sequence import answered
+from mbla.solution.sequence.solved_case import SolvedCase
 from mbla.solution.settings import SolverSettings, settings_for, solver_settings
 from mbla.solution.solution import IterationRecord, Status
 from mbla.solution.standing.standing import StressFreeStates
+from mbla.solution.time_history.progress import TimeProgress
 
-if TYPE_CHECKING:
-    from mbla.solution.sequence.solved_case import SolvedCase
-    from mbla.solution.time_history.follow import TimeProgress
-
-Progress = Callable[[str, "IterationRecord | TimeProgress"], None]
+Progress = Callable[[str, IterationRecord | TimeProgress], None]
 T = TypeVar("T")
 Tell = Callable[[Callable[[], T]], None]
 """is told how to make what there is of something that takes long; may be made at any time, while it goes on"""

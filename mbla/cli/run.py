@@ -23,6 +23,12 @@ if TYPE_CHECKING:
     from mbla.run import Progress
 
 
+CELLS = 24
+"""of the bar of a structure in time"""
+BETWEEN = 0.1
+"""seconds between two states of it"""
+
+
 def add(commands: Any) -> None:
     """The command and its options."""
     command = commands.add_parser("run", help="solve every load case of decks and write the results")
@@ -99,9 +105,31 @@ def _progress() -> Progress | None:
     """A line that rewrites itself on a terminal; nothing elsewhere."""
     if not sys.stderr.isatty():
         return None
+    shown = [0.0]
 
     def show(case: str, record: Any) -> None:
-        text = f"{case}: program {record.program}, iteration {record.iteration}, load factor {record.load_factor:.6g}"
-        rewrite_line(text)
+        if hasattr(record, "program"):
+            text = f"{case}: program {record.program}, iteration {record.iteration}"
+            rewrite_line(f"{text}, load factor {record.load_factor:.6g}")
+        elif time.monotonic() - shown[0] >= BETWEEN or record.share >= 1.0:
+            shown[0] = time.monotonic()
+            rewrite_line(in_time(case, record))
 
     return show
+
+
+def in_time(case: str, record: Any) -> str:
+    """``quake: [########..............]  36 %, 9.1 of 25 s, 1 min 20 s to go``."""
+    done = round(CELLS * record.share)
+    half = ", half of the step" if record.half else ""
+    bar = f"[{'#' * done}{'.' * (CELLS - done)}] {100.0 * record.share:3.0f} %"
+    missed = f", {record.missed} steps missed" if record.missed else ""
+    return f"{case}{half}: {bar}, {record.time:.3g} of {record.duration:g} s, {_lasting(record.to_go)} to go{missed}"
+
+
+def _lasting(seconds: float) -> str:
+    """``41 s``, ``3 min 20 s``, ``2 h 5 min``."""
+    whole = round(seconds)
+    if whole < 60:
+        return f"{whole} s"
+    return f"{whole // 60} min {whole % 60} s" if whole < 3600 else f"{whole // 3600} h {whole // 60 % 60} min"

@@ -6,13 +6,11 @@ back if the run fails (see :mod:`mbla.results.files`).
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, TextIO
+from typing import TextIO
 
 from mbla.errors import FileError
 from mbla.solution.solution import IterationRecord
-
-if TYPE_CHECKING:
-    from mbla.solution.time_history.follow import TimeProgress
+from mbla.solution.time_history.progress import TimeProgress
 
 HEADER = (
     f"{'case':<24} {'program':>7} {'iteration':>9} {'load_factor':>15} {'gap':>10} {'primal':>10} {'dual':>10} "
@@ -33,6 +31,9 @@ HISTORY_HEADER = (
     f"{'halved':>7} {'missed':>7} {'seconds':>9}"
 )
 """of steps in time; newton are factorisations so far, as are halved and missed; balance is what energies lack"""
+
+HALF = "/half"
+"""behind the name of a case that is followed with half of the step"""
 
 
 def history_line(case: str, step: TimeProgress) -> str:
@@ -57,6 +58,7 @@ class StatusFile:
         if isinstance(record, IterationRecord):
             self._write(status_line(case, record))
             return
+        case = f"{case}{HALF}" if record.half else case
         if case != self._in_time:
             self._in_time = case
             self._write(HISTORY_HEADER)

@@ -198,7 +198,7 @@ def asked() -> TimeHistory:
         stop_displacement=np.inf,
         stop_at_rest=False,
         rigid=(np.array([2]),),
-        check=True,
+        check=False,
         dead_levers=np.zeros((3, 9)),
         dead_following=np.zeros((3, 6)),
     )

@@ -28,9 +28,10 @@ from mbla.solution.time_history.frame_record import FrameKeeper
 from mbla.solution.time_history.greatest import Greatest
 from mbla.solution.time_history.history import HalfStep, TimeHistoryResult
 from mbla.solution.time_history.instants import Instants
-from mbla.solution.time_history.remarks import history_remarks
 from mbla.solution.time_history.march import DeckStep, March
 from mbla.solution.time_history.moving_bodies import MovingBodies
+from mbla.solution.time_history.progress import TimeProgress
+from mbla.solution.time_history.remarks import history_remarks
 from mbla.solution.time_history.row_keeper import RowKeeper
 from mbla.solution.time_history.step_rows import HistoryEnd
 from mbla.solution.time_history.time_state import TimeState
@@ -40,25 +41,6 @@ WINDOW = 0.1
 
 STILL = 1e-10
 """Kinetic energy over total weight times mean size of blocks, with which the structure is at rest."""
-
-
-@dataclass(frozen=True)
-class TimeProgress:
-    """How far a time history has come; of a step of the deck.
-
-    balance : energy that is not accounted for, over the greatest of the energies so far
-    """
-
-    time: float
-    duration: float
-    step: int
-    factorisations: int
-    residual: float
-    balance: float
-    pressing: int
-    halved: int
-    missed: int
-    seconds: float
 
 
 Followed: TypeAlias = tuple[TimeHistoryResult, tuple[Message, ...], Checkpoint | None]
@@ -100,7 +82,7 @@ def follow(
     end = way.followed()
     result = found(end)
     if bodies.history.check and end is not HistoryEnd.LATE:
-        half = _half_step(bodies, assembly.contacts, place, settings)
+        half = _half_step(bodies, assembly.contacts, place, settings, watch)
         result = replace(result, half=half, seconds=spent + time.perf_counter() - started)
     return result, history_remarks(model, case, result), None
 
@@ -260,11 +242,11 @@ class TimeWay:
 
 
 def _half_step(
-    bodies: MovingBodies, contacts: Contacts, place: PushedPlace, settings: SolverSettings
+    bodies: MovingBodies, contacts: Contacts, place: PushedPlace, settings: SolverSettings, watch: Watch
 ) -> HalfStep | None:
     """The same with half of the step; None where the time limit cut it off."""
     halved = replace(bodies, history=replace(bodies.history, step=0.5 * bodies.history.step))
-    way = TimeWay.of(halved, contacts, place, settings.deadline, lambda progress: None)
+    way = TimeWay.of(halved, contacts, place, settings.deadline, lambda progress: watch(replace(progress, half=True)))
     end = way.followed()
     if end is HistoryEnd.LATE:
         return None

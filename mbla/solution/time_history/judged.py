@@ -24,6 +24,8 @@ def judged(case: LoadCase, found: TimeHistoryResult) -> tuple[Status, str]:
     if found.end in CUT_SHORT:
         return Status.TIME_LIMIT, f"{CUT_SHORT[found.end]} at {rows.times[-1]:.4g} of {asked.duration:.4g} s"
     why = [missed_words(rows)] if is_rough(rows) else []
+    if asked.check and found.half is None:
+        why.append("the time limit was reached before it was followed with half of the step")
     if words := differs_by_step(found):
         why.append(words)
     return (Status.APPROXIMATE if why else Status.SOLVED), "; ".join(why)

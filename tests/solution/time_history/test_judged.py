@@ -53,6 +53,13 @@ def test_status(found: TimeHistoryResult, status: Status, reason: str) -> None:
     assert bool(reason) == bool(why)
 
 
+def test_half_of_the_step_that_was_asked_for_and_is_missing() -> None:
+    checked = replace(CASE, time_history=replace(asked(), check=True))
+    assert judged(checked, FOUND) == (Status.SOLVED, "")
+    status, why = judged(checked, replace(FOUND, half=None))
+    assert (status, why[:26]) == (Status.APPROXIMATE, "the time limit was reached")
+
+
 def test_the_peak_of_what_falls_is_not_compared() -> None:
     fallen = replace(FOUND, end=HistoryEnd.COLLAPSE, half=halved(3.0 * PEAK, HistoryEnd.COLLAPSE))
     assert not differs_by_step(fallen)

@@ -1,0 +1,42 @@
+"""How far a time history has come."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class TimeProgress:
+    """Of a step of the deck.
+
+    time, duration : s
+    step           : number of steps that were made, small ones as well
+    factorisations, halved, missed : so far
+    residual       : of the step
+    balance        : energy that is not accounted for, over the greatest of the energies so far
+    pressing       : contact points that press
+    seconds        : since the history began
+    half           : whether it is followed once more, with half of the step
+    """
+
+    time: float
+    duration: float
+    step: int
+    factorisations: int
+    residual: float
+    balance: float
+    pressing: int
+    halved: int
+    missed: int
+    seconds: float
+    half: bool = False
+
+    @property
+    def share(self) -> float:
+        """Of the duration that is done."""
+        return self.time / self.duration
+
+    @property
+    def to_go(self) -> float:
+        """Seconds that the rest takes at the speed so far."""
+        return self.seconds * (1.0 / self.share - 1.0)
