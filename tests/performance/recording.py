@@ -23,6 +23,7 @@ ONE_THREAD = {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}
 CASES = {
     "house": ("state", "what", "figure"),
     "line": ("structure", "flow_rule"),
+    "lmgc90": ("scene", "point", "joints", "program", "step_ms", "amplitude"),
     "forms": ("structure", "case"),
     "kernels": ("structure", "case"),
     "rigid_in_time": ("structure", "case", "ratio"),
