@@ -297,9 +297,15 @@ def _in_time(
     log: Callable[[TimeProgress], None],
     tell: Tell[CaseResult],
 ) -> SolvedCase:
-    """A load case that stands, followed in time."""
+    """A load case that stands, followed in time; not verified where it cannot be."""
     from mbla.solution.sequence.history import with_history  # late: few load cases are
     from mbla.solution.time_history.follow import Followed, follow
+    from mbla.solution.time_history.why_not_followed import why_not_followed
+
+    model = assembly.model.of_case(stands.load_case)
+    if against := why_not_followed(model, assembly.contacts, stands.solution):
+        words = f"there is no time history: {against}"
+        return replace(stands, solution=replace(stands.solution, status=Status.NOT_VERIFIED, reason=words))
 
     def case_of(found: Followed) -> CaseResult:
         answer = with_history(assembly, stands, *found[:2])
@@ -308,7 +314,7 @@ def _in_time(
     def so_far(make: Callable[[], Followed]) -> None:
         tell(lambda: case_of(make()))
 
-    found, remarks, _ = follow(assembly, deck.contacts, stands.load_case, settings, log, so_far)
+    found, remarks = follow(assembly, deck.contacts, stands.load_case, settings, log, so_far)
     return with_history(assembly, stands, found, remarks)
 
 

@@ -135,7 +135,7 @@ def by_mbla(scene: Scene, run: Run) -> History:
     deck = scene.deck(*JOINTS[run.joints], run.step)
     model = build_model(deck)
     assembly, started = build_assembly(deck, model), time.process_time()
-    result, _, _ = follow(assembly, deck.contacts, model.load_cases[0], solver_settings(deck.analysis))
+    result, _ = follow(assembly, deck.contacts, model.load_cases[0], solver_settings(deck.analysis))
     seconds, found, rows = time.process_time() - started, result.histories, result.rows
     assert found is not None  # it stands
     assert rows is not None

@@ -30,7 +30,7 @@ RESTS = "the control point does not move as the structure starts to: leave contr
 
 def why_not_pushed(model: Model, contacts: Contacts, case: LoadCase, solution: Solution, solved: bool) -> str:
     """What keeps a pushover from being done, in words; empty where nothing does."""
-    at_corners = solution.stress_blocks and _crushes_at_corners(model, contacts)
+    at_corners = solution.stress_blocks and crushes_at_corners(model, contacts)
     against = {
         "the load case is not solved": not solved or solution.mechanics is None,
         "the table collapses at no angle": case.question.tilts and bool(np.isnan(factor_at_start(case, solution))),
@@ -56,7 +56,7 @@ def _above_start(case: LoadCase, solution: Solution) -> Iterator[str]:
         yield words + "the structure starts to move: give a lower one"
 
 
-def _crushes_at_corners(model: Model, contacts: Contacts) -> bool:
+def crushes_at_corners(model: Model, contacts: Contacts) -> bool:
     """Whether an interface that can crush has contact points at its corners alone."""
     interface = contacts.interface_of_point
     grid = refined(interface, contacts.points, contacts.frames[:, 0])

@@ -14,14 +14,10 @@ from mbla.contacts.contacts import Contacts
 from mbla.deck.sections.contacts import ContactsSection
 from mbla.errors import Message
 from mbla.model.model import LoadCase
-from mbla.program.build import build_program
-from mbla.questions.load_factor import LOAD_FACTOR
 from mbla.solution.pushover.place import PushedPlace
 from mbla.solution.pushover.rest import at_rest
 from mbla.solution.pushover.way import RATIO
 from mbla.solution.settings import SolverSettings
-from mbla.solution.solution import StandingResult
-from mbla.solution.standing.standing import assess_dead_load, worst_standing
 from mbla.solution.time_history.checkpoint import Checkpoint, Unfinished
 from mbla.solution.time_history.dashpots import dashpots_of, first_period
 from mbla.solution.time_history.frame_record import FrameKeeper
@@ -56,8 +52,8 @@ def follow(
     watch: Watch = lambda progress: None,
     tell: Callable[[Callable[[], Followed]], None] = lambda so_far: None,
     begin: Unfinished | None = None,
-) -> tuple[TimeHistoryResult, tuple[Message, ...], StandingResult | None]:
-    """The time history of a load case, what a reader of it must know, and why it does not stand where it does not.
+) -> tuple[TimeHistoryResult, tuple[Message, ...]]:
+    """The time history of a load case that stands under its dead load, and what a reader of it must know.
 
     watch : told of every step of the deck
     tell  : told how to make the same with the steps that are done by then
@@ -67,7 +63,7 @@ def follow(
     bodies, model = MovingBodies.of(assembly, section, case), assembly.model
     place, _ = at_rest(bodies.structure, RATIO)
     if place is None:
-        return TimeHistoryResult(HistoryEnd.NOT_STANDING), (), _standing(assembly, case, settings)
+        return TimeHistoryResult(HistoryEnd.NO_REST), ()
     way = TimeWay.of(bodies, assembly.contacts, place, settings.deadline, watch)
     way = way if begin is None else way.after(begin)
 
@@ -84,7 +80,7 @@ def follow(
     if bodies.history.check and end is not HistoryEnd.LATE:
         half = _half_step(bodies, assembly.contacts, place, settings, watch)
         result = replace(result, half=half, seconds=spent + time.perf_counter() - started)
-    return result, history_remarks(model, case, result), None
+    return result, history_remarks(model, case, result)
 
 
 @dataclass
@@ -253,10 +249,3 @@ def _half_step(
     other = way.result(end).peaks
     assert other is not None
     return HalfStep(other.peak, other.peak_time, float(other.residuals.max(initial=0.0)), end)
-
-
-def _standing(assembly: Assembly, case: LoadCase, settings: SolverSettings) -> StandingResult:
-    """Why the structure does not stand under its dead load."""
-    alone = replace(case, live_load=case.dead_load, question=LOAD_FACTOR, time_history=None)
-    program = build_program(assembly, alone, settings.analysis)
-    return worst_standing([assess_dead_load(part, carried=None) for part in program.reduced.parts])

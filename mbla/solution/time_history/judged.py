@@ -19,7 +19,7 @@ CUT_SHORT = {HistoryEnd.LATE: "the time limit was reached", HistoryEnd.STOPPED: 
 def judged(case: LoadCase, found: TimeHistoryResult) -> tuple[Status, str]:
     """Status of a history by itself, before anything of it is verified, and why it is not solved."""
     rows, asked = found.rows, case.time_history
-    if found.end is HistoryEnd.NOT_STANDING or rows is None or asked is None:
+    if found.end is HistoryEnd.NO_REST or rows is None or asked is None:
         return Status.NOT_VERIFIED, "no state of rest was found on elastic joints, from which it could be followed"
     if found.end in CUT_SHORT:
         return Status.TIME_LIMIT, f"{CUT_SHORT[found.end]} at {rows.times[-1]:.4g} of {asked.duration:.4g} s"

@@ -16,7 +16,7 @@ class HistoryEnd(StrEnum):
     COLLAPSE = "a block has fallen"
     DISPLACED = "the displacement asked for is reached"
     AT_REST = "the structure has come to rest"
-    NOT_STANDING = "the structure does not stand under its dead load"
+    NO_REST = "its rest under the dead load was not found on elastic joints"
     LATE = "the time limit was reached"
     STOPPED = "the run was stopped"
 

@@ -56,7 +56,7 @@ POSES = 20
 """Frames in which blocks are held against each other, contact points or not."""
 
 
-WITHOUT_ROWS = (HistoryEnd.NONE, HistoryEnd.NOT_STANDING, HistoryEnd.LATE, HistoryEnd.STOPPED)
+WITHOUT_ROWS = (HistoryEnd.NONE, HistoryEnd.NO_REST, HistoryEnd.LATE, HistoryEnd.STOPPED)
 """Ends of what may have made no step."""
 
 

@@ -36,7 +36,7 @@ def test_a_sliding_block_stays_on_the_ground(flow_rule: str) -> None:
     deck = read_deck_text(SLIDES.replace("FLOW", flow_rule), Path("deck.yaml"))
     assembly = build_assembly(deck, build_model(deck))
     case = assembly.model.load_cases[0]
-    found, _, _ = follow(assembly, deck.contacts, case, settings_for(case, solver_settings(deck.analysis)))
+    found, _ = follow(assembly, deck.contacts, case, settings_for(case, solver_settings(deck.analysis)))
     assert found.peaks is not None
     assert found.frames is not None
     assert found.peaks.peak == pytest.approx(0.0654, rel=0.01)

@@ -43,7 +43,7 @@ def halved(peak: float, end: HistoryEnd = HistoryEnd.DURATION) -> HalfStep:
         (replace(FOUND, half=halved(PEAK, HistoryEnd.COLLAPSE)), Status.APPROXIMATE, "half of the step it ends other"),
         (replace(FOUND, end=HistoryEnd.LATE), Status.TIME_LIMIT, "the time limit was reached at 4 of 4 s"),
         (replace(FOUND, end=HistoryEnd.STOPPED), Status.TIME_LIMIT, "the run was stopped at 4 of 4 s"),
-        (replace(FOUND, end=HistoryEnd.NOT_STANDING, **NOTHING), Status.NOT_VERIFIED, "no state of rest was found"),
+        (replace(FOUND, end=HistoryEnd.NO_REST, **NOTHING), Status.NOT_VERIFIED, "no state of rest was found"),
     ],
 )
 def test_status(found: TimeHistoryResult, status: Status, reason: str) -> None:
@@ -78,7 +78,7 @@ def test_what_joints_give_anyway_is_no_difference() -> None:
         (replace(FOUND, period=np.nan), []),
         (FOUND, ["time-history-coarse"]),
         (replace(FOUND, period=1.0, sag=0.01), ["time-history-soft"]),
-        (replace(FOUND, end=HistoryEnd.NOT_STANDING, **NOTHING), []),
+        (replace(FOUND, end=HistoryEnd.NO_REST, **NOTHING), []),
     ],
 )
 def test_remarks(found: TimeHistoryResult, identifiers: list[str]) -> None:

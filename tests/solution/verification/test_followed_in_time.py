@@ -69,7 +69,7 @@ def followed(text: str, *overrides: str) -> Followed:
         deck = read_deck(path, overrides)
         model = build_model(deck)
     assembly, (case,) = build_assembly(deck, model), model.load_cases
-    result, _, _ = follow(assembly, deck.contacts, case, settings_for(case, solver_settings(deck.analysis)))
+    result, _ = follow(assembly, deck.contacts, case, settings_for(case, solver_settings(deck.analysis)))
     return assembly, case, result
 
 
