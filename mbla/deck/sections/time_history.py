@@ -57,6 +57,7 @@ class StopSection(Section):
     """What ends a time history before its duration."""
 
     displacement: PositiveLength | None = Field(None, description="of a block, relative to the base")
+    collapse: Switch = Field(True, description="as soon as a block has fallen; off: to see how all comes down")
     rest: Switch = Field(False, description="after the motion: as soon as nothing moves any more")
 
 

@@ -62,6 +62,7 @@ def build_time_history(
         interfaces=interfaces,
         stop_displacement=np.inf if section.stop.displacement is None else section.stop.displacement,
         stop_at_rest=section.stop.rest,
+        stop_at_collapse=section.stop.collapse,
         rigid=rigid,
         check=section.check,
         dead_levers=levers,

@@ -95,6 +95,7 @@ class TimeHistory:
     every             : s, between states that are kept
     stop_displacement : of a block, at which it ends; inf: none
     stop_at_rest      : it ends where motion and blocks are at rest
+    stop_at_collapse  : it ends where a block has fallen
     rigid             : blocks of each kinematic block, which move as one body; ascending
     check             : whether it is made once more, with half of the step
     dead_levers       : (n_blocks, 9) sums of arm times force of dead loads that keep their direction
@@ -116,6 +117,7 @@ class TimeHistory:
     check: bool
     dead_levers: FloatArray
     dead_following: FloatArray
+    stop_at_collapse: bool = True
 
     @property
     def drivers(self) -> tuple[BaseMotion | ForceHistory, ...]:

@@ -23,6 +23,7 @@ ASKED.fields(
     every=Field("between states that are kept", unit="time"),
     stop_displacement=Field("of a block, at which it ends; inf: none", unit="length", rule="open"),
     stop_at_rest=Field("1 where it ends as soon as all is at rest"),
+    stop_at_collapse=Field("1 where it ends as soon as a block has fallen"),
     check=Field("1 where it is followed with half of the step as well"),
 )
 

@@ -198,7 +198,7 @@ class TimeWay:
     def _end(self, state: TimeState) -> HistoryEnd:
         """Why it ends at a state; none where it goes on."""
         history = self.march.bodies.history
-        if not np.isnan(self.greatest.falling).all():
+        if history.stop_at_collapse and not np.isnan(self.greatest.falling).all():
             return HistoryEnd.COLLAPSE
         if float(self.greatest.displacements.max(initial=0.0)) >= history.stop_displacement:
             return HistoryEnd.DISPLACED

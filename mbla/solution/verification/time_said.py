@@ -80,7 +80,8 @@ def end_failures(
 ) -> Iterator[Message]:
     """Where the end is not the one that rows and peaks show: the first of these, and nothing after it."""
     last = float(rows.times[-1])
-    falls = float(np.nanmin(peaks.falling)) if not np.isnan(peaks.falling).all() else np.inf
+    fallen = history.stop_at_collapse and not np.isnan(peaks.falling).all()
+    falls = float(np.nanmin(peaks.falling)) if fallen else np.inf
     far = bool(peaks.displacements.max(initial=0.0) >= history.stop_displacement)
     shown = [
         kind
