@@ -25,6 +25,7 @@ CASES = {
     "line": ("structure", "flow_rule"),
     "lmgc90": ("scene", "point", "joints", "program", "step_ms", "amplitude"),
     "forms": ("structure", "case"),
+    "time_step": ("scene",),
     "kernels": ("structure", "case"),
     "rigid_in_time": ("structure", "case", "ratio"),
     "path": ("structure",),
