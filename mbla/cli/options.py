@@ -42,16 +42,20 @@ def shard(text: str) -> tuple[int, int]:
 
 
 def target(text: str) -> tuple[str, float]:
-    """What a result should be, ``load_factor=1.0`` or ``stands``; raises ArgumentTypeError for anything else."""
+    """What a result should be, ``load_factor=1.0``, ``peak=0.1``, ``stands`` or ``falls``.
+
+    Raises ArgumentTypeError for anything else.
+    """
     name, equals, value = text.partition("=")
-    if text == "stands":
+    if text in ("stands", "falls"):
         return text, 0.0
     try:
         number = float(value)
     except ValueError:
         number = float("nan")
-    if name not in ("load_factor", "least_load_factor") or not equals or not abs(number) < float("inf"):
-        raise argparse.ArgumentTypeError(f"{text!r} is not load_factor=VALUE, least_load_factor=VALUE or stands")
+    if name not in ("load_factor", "least_load_factor", "peak") or not equals or not abs(number) < float("inf"):
+        wanted = "load_factor=VALUE, least_load_factor=VALUE, stands, falls or peak=VALUE"
+        raise argparse.ArgumentTypeError(f"{text!r} is not {wanted}")
     return name, number
 
 

@@ -38,7 +38,7 @@ class PeakDisplacement(Question):
     control: ClassVar[str] = "point"
     powers: ClassVar[tuple[str, str]] = ("motion of the base and forces over time", "dead load")
     no_equilibrium: ClassVar[str] = "no equilibrium: the structure does not stand under its dead load"
-    no_target: ClassVar[str] = f"{NO_FACTOR}; choose another load case, or mbla sweep"
+    no_target: ClassVar[str] = f"{NO_FACTOR}; look for the target falls or peak, or choose another load case"
     no_safety: ClassVar[str] = NO_FACTOR
     no_sensitivity = NO_FACTOR
     kind = "length"

@@ -69,7 +69,7 @@ def least_thickness(voussoirs: int, mu: float, exits: tuple[int, ...] = (0,)) ->
     """Thickness at which the arch just stands; in few solves, the last of them verified."""
     deck = read_deck_text(deck_text(0.2, voussoirs, mu), Path("arch.yaml"))
     asked = {"parameter": "parameters.t", "target": ("stands", 0.0), "bounds": BOUNDS}
-    found = find(deck, SimpleNamespace(**asked, case=None, scan=None, tolerance=None))
+    found = find(deck, SimpleNamespace(**asked, case=None, scan=None, first=None, tolerance=None))
     (zero,) = found.zeros
     assert zero.complete
     assert found.exit_code in exits

@@ -26,6 +26,8 @@ from mbla.cli.terminal import WIDTH, clear_line, line_width, rewrite_line
         (values.relative_above_zero, "1e-3", 1e-3),
         (values.target, "load_factor=1.5", ("load_factor", 1.5)),
         (values.target, "stands", ("stands", 0.0)),
+        (values.target, "falls", ("falls", 0.0)),
+        (values.target, "peak=0.05", ("peak", 0.05)),
     ],
 )
 def test_taken(value: Callable[[str], object], text: str, expected: object) -> None:

@@ -23,6 +23,8 @@ UNUSED: dict[str, str] = {
     "AnalysisSection": "gap max_iterations reductions residual search standing time_limit tolerance",
     "Expectation": "end falls peak peak_time period residual",
     "Fill": "dilatancy",
+    "FindSection": "first",
+    "JointLaw": "stiffness",
     "ForceHistorySection": "at direction file on unit",
     "LoadCaseSection": "time_history",
     "MeshItem": "weld",
@@ -38,6 +40,7 @@ UNUSED: dict[str, str] = {
     "SoilItem": "dilatancy",
     "StiffnessSection": "normal",
     "StopSection": "displacement rest",
+    "TargetSection": "falls peak",
     "TimeHistorySection": "check contact_damping damping duration forces motion record rigid step stop",
     "Travel": "contact",
 }

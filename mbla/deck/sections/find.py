@@ -7,14 +7,15 @@ from typing import Annotated
 
 from pydantic import Field
 
-from mbla.deck.quantities import Integer, Line, Name, Number, RealNumber, Switch
+from mbla.deck.quantities import Integer, Line, Name, Number, PositiveLength, RealNumber, Switch
 from mbla.deck.section import EXACTLY_ONE, Section, one_of, rule
 from mbla.errors import Finding
 
 MOST_STEPS = 1000
 """of a scan"""
-TOLERANCE = 1e-6
-"""of the value that is found, relative, unless the deck says otherwise"""
+TOLERANCE, IN_TIME = 1e-6, 1e-3
+"""of the value that is found, relative, unless the deck says otherwise; of a structure in time, which no value is known
+better of: each costs a time history, and the next digits are those of its steps"""
 
 
 class TargetSection(Section):
@@ -28,6 +29,12 @@ class TargetSection(Section):
         None,
         description="true: the limit at which the dead load is just carried, whatever the live load; measured by the "
         "greatest uniform pressure in all joints, as of water, that is carried with it: 0 at the limit",
+    )
+    falls: Switch | None = Field(
+        None, description="true: where a block of a load case with time_history begins to fall, as over its scale"
+    )
+    peak: PositiveLength | None = Field(
+        None, description="greatest displacement of a block in a load case with time_history; what falls is above it"
     )
 
 
@@ -46,9 +53,19 @@ class FindSection(Section):
     scan: Annotated[int, Integer(ge=1, le=MOST_STEPS)] = Field(
         1, description="equal steps from bound to bound, each of which is solved: more than 1 finds several values"
     )
-    tolerance: Annotated[float, RealNumber("number", gt=0, le=0.1)] = Field(
-        TOLERANCE, description="tolerance of the value, relative to the larger of the bounds"
+    first: Switch = Field(
+        False,
+        description="the first value alone, upwards from the lower bound: the scan ends with the step that has it",
     )
+    tolerance: Annotated[float, RealNumber("number", gt=0, le=0.1)] | None = Field(
+        None,
+        description=f"tolerance of the value, relative to the larger of the bounds; default: {TOLERANCE:g}, of a "
+        f"structure in time {IN_TIME:g}",
+    )
+
+
+SWITCHES = {"stands": "just stands", "falls": "begins to fall"}
+"""targets without a figure"""
 
 
 @rule(FindSection)
@@ -58,5 +75,6 @@ def find(section: FindSection) -> Iterator[Finding]:
     least, greatest = section.bounds
     if not least < greatest:
         yield Finding("out-of-bounds", f"must be > {least:g}, the other bound", "bounds", 1)
-    if section.target.stands is False:
-        yield Finding("wrong-value", "must be true: a value at which it just stands is looked for", "target", "stands")
+    for key, what in SWITCHES.items():
+        if getattr(section.target, key) is False:
+            yield Finding("wrong-value", f"must be true: a value at which it {what} is looked for", "target", key)

@@ -3,6 +3,8 @@
 Of a load factor the side is known even where there is none: a structure that does not stand is below every target, one
 that no load brings down above it.
 
+A structure in time that falls is above every greatest displacement; one that does not stand at rest falls at once.
+
 That the dead load is just carried is asked by the greatest pressure that is carried with it in all joints, which passes
 through zero there (:mod:`mbla.solution.further.geometric_safety.joint_pressure`).
 """
@@ -21,7 +23,7 @@ from mbla.model import Model, build_model
 from mbla.model.model import LoadCase, select_cases
 from mbla.program.build import build_program
 from mbla.questions.load_factor import LOAD_FACTOR
-from mbla.results.outcome import least_known, locked_in, result_of
+from mbla.results.outcome import history_of, least_known, locked_in, result_of
 from mbla.results.status_file import StatusFile
 from mbla.run import solve_case
 from mbla.solution.further.geometric_safety.joint_pressure import joint_pressure
@@ -32,6 +34,7 @@ from mbla.solution.settings import solver_settings
 from mbla.solution.solution import Checks, Standing, StandingResult, Status
 from mbla.solution.standing.standing import standing_where_carried
 from mbla.solution.thresholds import SOLVED_RESIDUAL
+from mbla.solution.time_history.step_rows import HistoryEnd
 from mbla.sweeps.find.question import FindQuestion
 
 SAME = 1e-7
@@ -57,7 +60,8 @@ class Evaluation:
     x        : the value
     status   : of the load case; of ``stands`` whether it does, by proved bounds
     verified : whether code that did not solve it confirms it
-    result   : load factor, or pressure in units of stress of the deck; nan where there is none
+    result   : load factor, pressure in units of stress of the deck, or peak in its unit of length; nan where there is
+               none
     y        : result less target; infinite where only the side is known, nan where nothing is
     slope    : of the result by the value; nan where it is not known
     words    : why there is no result; empty where there is one
@@ -89,7 +93,7 @@ def answer_at(deck: Deck, question: FindQuestion, x: float, contacts: KnownConta
         varied, structure = _structure(deck, question, f"{question.parameter}={x!r}", contacts=contacts)
     except DeckError as error:
         return Evaluation(x, REFUSED, words=str(error.faults[0]), solves=0)
-    answer = _stands if question.kind == "stands" else _factor
+    answer = _moved if question.in_time else _stands if question.kind == "stands" else _factor
     return answer(varied, question, structure, x)
 
 
@@ -112,6 +116,10 @@ def _case(model: Model, question: FindQuestion) -> LoadCase:
     cases = select_cases(model, (question.load_case,))
     name, case = question.load_case, cases[0]
     against = case.question.no_target
+    if question.in_time:
+        if case.time_history is not None:
+            return case
+        raise UsageError("find-option", f"--case {name} has no time_history, of which {question.kind} is asked")
     if len(cases) > 1 and not against:
         words = f"{name} travels: choose one of its positions, such as {case.name}"
     elif against and (question.kind != "stands" or not case.question.multiplies):
@@ -158,6 +166,31 @@ def _rounding(checks: Checks, bounds: tuple[float, float]) -> float:
 def _farther(result: float, bounds: tuple[float, float]) -> float:
     """What a result may be off by its bounds; 0 without."""
     return max(0.0, result - bounds[0], bounds[1] - result)
+
+
+# --- structures in time ---------------------------------------------------------------------------------------------
+
+CUT_OFF = "it moved as far as stop.displacement allows, and might have {} otherwise: give it more"
+FELL, STOOD = "falls", "does not fall"
+"""status of a structure that was followed in time"""
+
+
+def _moved(deck: Deck, question: FindQuestion, structure: LoadedAssembly, x: float) -> Evaluation:
+    """The greatest displacement of the load case in time, as ``mbla run`` gives it, and whether a block falls."""
+    log = StatusFile(io.StringIO(), deck.title)
+    case = solve_case(deck, structure.assembly, structure.load_case, solver_settings(deck.analysis), log, None)
+    verified, reason, found = case.checks.verified, case.solution.reason, history_of(case)
+    if case.status is Status.NO_EQUILIBRIUM:
+        return Evaluation(x, case.status.value, verified, y=math.inf, words=reason)
+    if found is None:
+        return Evaluation(x, case.status.value, verified, words=reason or "it is not verified")
+    if found.falls >= 0:
+        return Evaluation(x, FELL, verified, found.peak, math.inf)
+    over = found.peak - question.target
+    if case.solution.further.time_history.end is HistoryEnd.DISPLACED and (question.kind == "falls" or over < 0.0):
+        words = CUT_OFF.format("fallen" if question.kind == "falls" else "moved further")
+        return Evaluation(x, STOOD, verified, found.peak, words=words)
+    return Evaluation(x, STOOD, verified, found.peak, over if question.kind == "peak" else -math.inf)
 
 
 # --- standing -------------------------------------------------------------------------------------------------------

@@ -8,7 +8,7 @@ from typing import Any
 
 from mbla.deck import Deck
 from mbla.deck.parameter_keys import number_at, path_of_key, unit_of
-from mbla.deck.sections.find import MOST_STEPS, TOLERANCE
+from mbla.deck.sections.find import IN_TIME, MOST_STEPS, SWITCHES, TOLERANCE
 from mbla.deck.text.overrides import RefusedError
 from mbla.deck.text.tree import key_text
 from mbla.errors import KeyPath, UsageError
@@ -17,8 +17,12 @@ TARGETS = {
     "load_factor": "load factor",
     "least_load_factor": "least load factor",
     "stands": "pressure in all joints",
+    "falls": "peak displacement",
+    "peak": "peak displacement",
 }
 """kinds of targets, and what is compared in words"""
+TIMED = ("falls", "peak")
+"""kinds of structures in time"""
 
 
 @dataclass(frozen=True)
@@ -29,8 +33,9 @@ class FindQuestion:
     path      : the same in the deck
     unit      : of its values; empty for plain numbers
     kind      : of ``TARGETS``
-    target    : of the load factor; 0 for ``stands``
+    target    : of the load factor, or the peak; 0 for ``stands`` and ``falls``
     scan      : equal steps between the bounds at which the result is looked at
+    first     : whether they end with the first one, upwards, that has a value
     tolerance : of the value, relative to the larger of the bounds
     load_case : name
     """
@@ -44,6 +49,12 @@ class FindQuestion:
     scan: int
     tolerance: float
     load_case: str
+    first: bool = False
+
+    @property
+    def in_time(self) -> bool:
+        """Whether the structure is followed in time."""
+        return self.kind in TIMED
 
     @property
     def absolute_tolerance(self) -> float:
@@ -54,7 +65,8 @@ class FindQuestion:
 def question_of(deck: Deck, options: Any) -> FindQuestion:
     """The question that deck and options ask; raises UsageError where they leave it open or contradict themselves.
 
-    options : ``parameter``, ``target``, ``bounds``, ``case``, ``scan``, ``tolerance``; each None for that of the deck
+    options : ``parameter``, ``target``, ``bounds``, ``case``, ``scan``, ``first``, ``tolerance``; each None for that of
+              the deck
     """
     section = deck.content.find
     given = {name: getattr(options, name) for name in ("parameter", "target", "bounds")}
@@ -85,11 +97,12 @@ def question_of(deck: Deck, options: Any) -> FindQuestion:
         path=path,
         unit=unit_of([path], deck.units),
         kind=kind,
-        target=0.0 if kind == "stands" else float(target),
+        target=0.0 if kind in SWITCHES else float(target),
         bounds=(float(least), float(greatest)),
         scan=steps,
-        tolerance=options.tolerance or (TOLERANCE if section is None else section.tolerance),
+        tolerance=options.tolerance or (section and section.tolerance) or (IN_TIME if kind in TIMED else TOLERANCE),
         load_case=load_case,
+        first=bool(options.first or (section and section.first)),
     )
 
 

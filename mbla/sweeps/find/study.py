@@ -9,10 +9,11 @@ from typing import Any
 from mbla import __version__
 from mbla.contacts.known import KnownContacts
 from mbla.deck import Deck
+from mbla.deck.sections.find import SWITCHES
 from mbla.results.listing.text import counted, full_sentence, number, sentence, small, table
 from mbla.results.record.json_values import as_json
 from mbla.solution.further.zeros.samples import Zero
-from mbla.solution.further.zeros.zeros import find_zeros, is_level, scan
+from mbla.solution.further.zeros.zeros import find_zeros, is_level, scan, scan_to_first
 from mbla.solution.solution import Standing, StandingResult
 from mbla.sweeps.find.answer import REFUSED, Evaluation, answer_at, refuse_unfit_deck, standing_at
 from mbla.sweeps.find.question import TARGETS, FindQuestion, question_of
@@ -48,8 +49,8 @@ class FindResult:
         """See ``FOUND``."""
         if not self.zeros:
             return IN_DOUBT if self.unknown else NOTHING
-        stands = self.question.kind == "stands"
-        sound = all(_sure(zero) and (stands or not zero.jumps) for zero in self.zeros)
+        steps = self.question.kind == "stands" or self.question.in_time
+        sound = all(_sure(zero) and (steps or not zero.jumps) for zero in self.zeros)
         return FOUND if sound and all(each.verdict is Standing.YES for each in self.standing) else IN_DOUBT
 
     @property
@@ -78,7 +79,7 @@ class FindResult:
             "parameter": question.parameter,
             "unit": question.unit,
             "load_case": question.load_case,
-            "target": {question.kind: True if question.kind == "stands" else question.target},
+            "target": {question.kind: True if question.kind in SWITCHES else question.target},
             "bounds": list(question.bounds),
             "tolerance": question.tolerance,
             "found": [
@@ -106,7 +107,7 @@ class FindResult:
     def lines(self) -> list[str]:
         """The same in words."""
         question, what = self.question, TARGETS[self.question.kind]
-        asked = "the dead load is just carried" if question.kind == "stands" else f"{what} {number(question.target)}"
+        asked = ASKED.get(question.kind) or f"{what} {number(question.target)}"
         least, greatest = (f"{each:g}" for each in question.bounds)
         unit = f" {question.unit}" if question.unit else ""
         bounds = f"{question.parameter} from {least} to {greatest}{unit}"
@@ -118,6 +119,10 @@ class FindResult:
             lines += sentence(PRESSURE)
         for words in self.found_words:
             lines += sentence(words)
+        if question.in_time:
+            lines += sentence(CHAOS)
+        if question.first and self.zeros:
+            lines += sentence(FIRST.format(f"{self.scanned[-1].x:.9g}{unit}"))
         if not self.changes:
             words = NO_EFFECT.format(question.parameter, what, least, greatest, unit, number(self.scanned[0].result))
             lines += sentence(words)
@@ -125,7 +130,8 @@ class FindResult:
             at = ", ".join(f"{each.x:.9g}" for each in self.unknown)
             lines += sentence(UNKNOWN.format(question.parameter, at))
         elif not self.zeros and self.changes:
-            lines += sentence(NO_CHANGE.format(question.scan))
+            words = NO_CHANGE.format(question.scan)
+            lines += sentence(words)
         return [*lines, f"  {counted(len(self.answers), 'value')}, {counted(self.solves, 'solve')}"]
 
 
@@ -133,6 +139,13 @@ PRESSURE = (
     "Pressure in all joints, as of water, that is carried with the dead load, in the units of the deck; where it is "
     "negative, the dead load alone is not carried."
 )
+ASKED = {"stands": "the dead load is just carried", "falls": "a block begins to fall"}
+"""what is looked for, without a figure"""
+CHAOS = (
+    "In time a stronger motion may do less: this holds at the values looked at, between which, below and above it may "
+    "be otherwise. A finer --scan looks at more of them."
+)
+FIRST = "It is the first on the way up: nothing above {} was looked at."
 SCATTERS = ", between which the result scatters"
 NO_CHANGE = (
     "Nothing was found: the result is on one side of the target at both ends of every step ({} from bound to bound). "
@@ -175,6 +188,8 @@ def _value_words(question: FindQuestion, zero: Zero[Evaluation], standing: Stand
     unit = f" {question.unit}" if question.unit else ""
     name, stands = question.parameter, question.kind == "stands"
     says = f"{name} between {first.x:.9g} and {last.x:.9g}{unit}"
+    if question.in_time and zero.jumps:
+        return f"{says}: at {first.x:.9g} {_in_time(first)}, at {last.x:.9g} {_in_time(last)}"
     if zero.jumps and not stands:
         ends = f"{_side(first)} to {_side(last)}"
         says += f": there the result jumps over the target, from {ends}; no value gives {number(question.target)}"
@@ -212,6 +227,15 @@ def _no_limit(standing: StandingResult) -> str:
     return f"some forces carry the dead load, but {standing.reason}; so this is no limit of standing"
 
 
+def _in_time(answer: Evaluation) -> str:
+    """What a structure does in time."""
+    if math.isnan(answer.result):
+        return "it does not stand at rest"
+    return (
+        "it falls" if math.isinf(answer.y) and answer.y > 0.0 else f"it stands, with a peak of {number(answer.result)}"
+    )
+
+
 def _side(answer: Evaluation) -> str:
     """A result in words."""
     return answer.status if math.isnan(answer.result) else number(answer.result)
@@ -230,7 +254,7 @@ def find(deck: Deck, options: Any) -> FindResult:
         answers.append(answer_at(deck, question, x, contacts))
         return answers[-1]
 
-    samples = scan(*question.bounds, question.scan, at)
+    samples = (scan_to_first if question.first else scan)(*question.bounds, question.scan, at)
     if all(each.status == REFUSED for each in samples):
         refuse_unfit_deck(deck, question)
     zeros = tuple(find_zeros(samples, at, question.absolute_tolerance))

@@ -19,7 +19,15 @@ from tests.decks.folder import PATHS, deck_of, name_of
 from tests.line import BLOCK, WALL
 from tests.test_readme import block as block_of_readme
 
-ASKED = {"parameter": None, "target": None, "bounds": None, "case": None, "scan": None, "tolerance": None}
+ASKED = {
+    "parameter": None,
+    "target": None,
+    "bounds": None,
+    "case": None,
+    "scan": None,
+    "first": None,
+    "tolerance": None,
+}
 OF_DECKS = {
     "benchmarks/closed_forms/slopes_of_blocks": (5.0, 1e-7),
     "benchmarks/closed_forms/groove": (0.5 * math.cos(math.radians(30)), 2e-4),

@@ -42,6 +42,16 @@ def scan(low: float, high: float, steps: int, at: Callable[[float], S]) -> list[
     return samples
 
 
+def scan_to_first(low: float, high: float, steps: int, at: Callable[[float], S]) -> list[S]:
+    """Samples at equal steps upwards, up to the one with which the function is or has passed zero."""
+    samples = list[S]()
+    for row in range(steps + 1):
+        samples.append(at(high if row == steps else low + (high - low) * row / steps))
+        if is_zero(samples[-1]) or any(changes(samples)):
+            break
+    return samples
+
+
 def is_level(samples: Sequence[Sample]) -> bool:
     """Whether the function is the same at all samples, as far as it is known."""
     least, greatest = (side(samples, key=lambda each: each.y) for side in (min, max))
