@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, fields, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -47,29 +47,36 @@ class Instants:
 
     def after(self, found: RecordedHistories) -> Instants:
         """The same after instants that are on record."""
-        columns = [found.times[:, None], *(getattr(found, each.name) for each in fields(found)[1:])]
+        relative = found.accelerations - found.base[:, None, 2]
+        rest = (found.openings, found.slips, found.forces)
+        columns = (found.times[:, None], found.displacements, found.velocities, relative, *rest)
         return replace(self, kept=list(zip(*columns, strict=True)))
 
     def add(self, state: TimeState, there: Pose, before: TimeState | None, step: DeckStep | None) -> None:
         """The instant at which a state is; nothing before it at the first."""
-        blocks, history, time = self.bodies.structure.model.blocks, self.bodies.history, state.time
+        blocks, history = self.bodies.structure.model.blocks, self.bodies.history
         moved = there.displacements(blocks, self._owners, self._points)
         moved -= self.rest.displacements(blocks, self._owners, self._points)
         speed = self._speeds(state, there)
-        base = [each(time) for each in (history.base_displacement, history.base_velocity, history.base_acceleration)]
         acceleration = np.zeros_like(speed)
         if before is not None:
             between = 0.5 * (before.length + state.length)
             acceleration = (speed - self._speeds(before, there)) / between
         forces = np.zeros((len(history.interfaces), 3)) if step is None else self._forces(step)
         apart = [self._largest(each) for each in self.corners.apart(there)]
-        at = np.array([time])
-        self.kept.append((at, moved, speed, acceleration + base[2], np.stack(base), *apart, forces))
+        self.kept.append((np.array([state.time]), moved, speed, acceleration, *apart, forces))
 
     def result(self) -> RecordedHistories:
         """All instants."""
-        columns = [np.stack(each) for each in zip(*self.kept, strict=True)]
-        return RecordedHistories(columns[0][:, 0], *columns[1:])
+        times, moved, speeds, accelerations, *rest = (np.stack(each) for each in zip(*self.kept, strict=True))
+        base = self._base(times[:, 0])
+        return RecordedHistories(times[:, 0], moved, speeds, accelerations + base[:, None, 2], base, *rest)
+
+    def _base(self, times: FloatArray) -> FloatArray:
+        """Displacement, velocity and acceleration of the base, (m, 3, 3)."""
+        of = self.bodies.history
+        each = (of.base_displacement, of.base_velocity, of.base_acceleration)
+        return np.stack([function(times) for function in each], axis=1)
 
     @cached_property
     def _owners(self) -> IntArray:

@@ -11,7 +11,7 @@ from mbla.solution.time_history.moving_bodies import MovingBodies
 from mbla.solution.time_history.renewed_contacts import renewed
 from mbla.solution.time_history.solved_velocities import BALANCED
 from mbla.solution.time_history.time_state import TimeState
-from mbla.solution.time_history.time_step import StepMade, free_flight, step_in_time
+from mbla.solution.time_history.time_step import FreeFlight, StepMade, free_flight, step_in_time
 
 PARTS, AHEAD, FAST = 8, 1.5, 2.0
 """Small steps at an impact; steps within which a point closes there, and its speed over free fall in a step."""
@@ -51,17 +51,18 @@ class March:
 
     def _deck_step(self, state: TimeState, h: float) -> DeckStep:
         state = renewed(self.bodies, state, self.of_all)
-        parts = PARTS if self._impact(state, h) else 1
-        steps = self._solved(state, h / parts, 0)
+        flight = free_flight(self.bodies, state, h)
+        parts = PARTS if self._impact(state, flight, h) else 1
+        steps = self._solved(state, h / parts, 0, flight if parts == 1 else None)
         for _ in range(parts - 1):
             steps += self._solved(renewed(self.bodies, steps[-1].after, self.of_all), h / parts, 0)
         state = steps[-1].after
         counts = replace(state.counts, steps=state.counts.steps + 1, small=state.counts.small + len(steps) - 1)
         return DeckStep(steps[0], replace(state, counts=counts), max(step.error for step in steps))
 
-    def _solved(self, state: TimeState, h: float, depth: int) -> list[StepMade]:
+    def _solved(self, state: TimeState, h: float, depth: int, flight: FreeFlight | None = None) -> list[StepMade]:
         """A step, or the steps in its place where it is not solved; the smallest are taken as they are."""
-        made = step_in_time(self.bodies, state, h)
+        made = step_in_time(self.bodies, state, h, flight)
         if made.error < BALANCED:
             return [made]
         counts = made.after.counts
@@ -71,7 +72,7 @@ class March:
         first = self._solved(replace(state, counts=halved), 0.5 * h, depth + 1)
         return [*first, *self._solved(renewed(self.bodies, first[-1].after, self.of_all), 0.5 * h, depth + 1)]
 
-    def _impact(self, state: TimeState, h: float) -> bool:
+    def _impact(self, state: TimeState, flight: FreeFlight, h: float) -> bool:
         """Whether an open point closes soon, and fast."""
         joints, fall = state.joints, self.bodies.gravity * h
         if not joints.n_points:
@@ -81,5 +82,5 @@ class March:
         is_open = gap > OPEN * sizes
         if not is_open.any():
             return False
-        rate = state.at.joints.velocities(joints.displacements(free_flight(self.bodies, state, h).free))[0] / per_length
+        rate = state.at.joints.velocities(joints.displacements(flight.free))[0] / per_length
         return bool(np.any(is_open & (gap + AHEAD * h * rate < 0.0) & (rate < -FAST * fall)))

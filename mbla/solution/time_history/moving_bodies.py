@@ -109,6 +109,25 @@ class MovingBodies:
             total += impulse * turned.loads(turned_load(force.wrenches[:, :6], force.wrenches[:, 6:], none, blocks))
         return total
 
+    @cached_property
+    def inverse_masses(self) -> FloatArray:
+        """(n_solids,); 0 of what does not move."""
+        moves = ~self.structure.solids.model.fixed
+        return np.where(moves, 1.0 / np.where(moves, self.masses, 1.0), 0.0)
+
+    @cached_property
+    def inverse_tensors(self) -> FloatArray:
+        """(n_solids, 3, 3) as built; 0 of what does not move."""
+        found, moves = np.zeros_like(self.tensors), self.free
+        found[moves] = np.linalg.inv(self.tensors[moves])
+        return found
+
+    def velocities(self, momenta: FloatArray, rotation: FloatArray) -> FloatArray:
+        """Of momentum and angular momentum, (n_solids, 6), with inertia at a rotation; 0 of what does not move."""
+        own = np.einsum("nji,nj->ni", rotation, momenta[:, 3:])
+        turns = np.einsum("nij,njk,nk->ni", rotation, self.inverse_tensors, own)
+        return np.hstack([momenta[:, :3] * self.inverse_masses[:, None], turns])
+
     def tensors_at(self, rotation: FloatArray) -> FloatArray:
         """Of inertia, for rotations (n_solids, 3, 3)."""
         return np.asarray(np.einsum("nij,njk,nlk->nil", rotation, self.tensors, rotation))

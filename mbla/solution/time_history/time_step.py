@@ -77,18 +77,19 @@ def free_flight(bodies: MovingBodies, state: TimeState, h: float) -> FreeFlight:
     base = np.zeros_like(dead)
     base[:, :3] = -bodies.masses[:, None] * change
     force = bodies.impulses(state.pose, begin, end)
-    moved = bodies.free
-    begun, free = np.zeros_like(dead), np.zeros_like(dead)
-    total = state.momenta + dead + base + force
-    begun[moved] = np.linalg.solve(matrices[moved], state.momenta[moved][:, :, None])[:, :, 0]
-    free[moved] = np.linalg.solve(matrices[moved], total[moved][:, :, None])[:, :, 0]
+    begun, free = (
+        bodies.velocities(momenta, middle) for momenta in (state.momenta, state.momenta + dead + base + force)
+    )
     return FreeFlight(matrices, begun, free, dead, force, base)
 
 
-def step_in_time(bodies: MovingBodies, state: TimeState, h: float) -> StepMade:
-    """One step of length h; what it leaves of the balance says whether it is solved."""
+def step_in_time(bodies: MovingBodies, state: TimeState, h: float, flight: FreeFlight | None = None) -> StepMade:
+    """One step of length h; what it leaves of the balance says whether it is solved.
+
+    flight : that of the step, where it is known
+    """
     joints, at = state.joints, state.at
-    flight = free_flight(bodies, state, h)
+    flight = free_flight(bodies, state, h) if flight is None else flight
     in_step = JointsInStep.of(state, h)
     scaling, free = joints.full.scaling, joints.full.facts.free
     between = h_mean(state, h)
