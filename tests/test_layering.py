@@ -114,6 +114,9 @@ GIVEN_TO_IT = {
     "solution/pushover/pushover.py": "the claim of a pushover",
     "solution/modes/modes.py": "the claim of modes",
     "solution/time_history/frames.py": "frames of a time history",
+    "solution/linear_algebra/superlu.py": "signs of pivots, by which modes are counted",
+    "solution/linear_algebra/qdldl_factors.py": "the order of elimination for these",
+    "solution/linear_algebra/pattern.py": "patterns of matrices for these",
     "solution/time_history/history.py": "the claim of a time history",
     "solution/time_history/step_rows.py": "rows of a time history and why it ends",
 }

@@ -64,6 +64,21 @@ def factors_on_the_diagonal(matrix: sp.csc_matrix | sp.csc_array, threshold: flo
     return factors
 
 
+def negative_pivots(matrix: sp.sparray) -> int | None:
+    """How many pivots of a symmetric matrix on its diagonal are negative; None where that breaks down.
+
+    By Sylvester's law of inertia so many of its eigenvalues are negative. No row is exchanged: a pivot next to nothing
+    is as likely to have the wrong sign as the right one.
+    """
+    held = sp.csc_array(matrix)
+    order = elimination_order(sp.csc_array(abs(held) + sp.eye_array(held.shape[0])))
+    factors = factors_on_the_diagonal(sp.csc_array(held[order][:, order]), 0.0)
+    if factors is None or not np.array_equal(factors.perm_r, factors.perm_c):
+        return None
+    pivots = factors.U.diagonal()
+    return int((pivots < 0.0).sum()) if np.isfinite(pivots).all() else None
+
+
 def _solver(factors: spla.SuperLU) -> Solve:
     def solve(rhs: FloatArray) -> FloatArray:
         return np.asarray(factors.solve(rhs))

@@ -41,7 +41,7 @@ class Eigenpairs:
 
 
 def least_eigenpairs(stiffness: sp.csr_array, masses: sp.csr_array, count: int) -> Eigenpairs:
-    """The least that are not nothing.
+    """The least that are not nothing, so many and those of one frequency with the last.
 
     stiffness : (n, n) positive semidefinite; masses : (n, n) positive definite
     """
@@ -56,7 +56,8 @@ def least_eigenpairs(stiffness: sp.csr_array, masses: sp.csr_array, count: int) 
         if int(holds.sum()) >= count or len(squares) == n:
             break
         wanted = min(2 * wanted, n)
-    kept = np.flatnonzero(holds)[:count]
+    kept = np.flatnonzero(holds)
+    kept = kept[: next((group.stop for group in apart(squares[kept]) if group.stop >= count), len(kept))]
     return Eigenpairs(squares[kept], unit[:, None] * vectors[:, kept], unit[:, None] * vectors[:, ~holds])
 
 
@@ -88,5 +89,5 @@ def _least(k: sp.csr_array, m: sp.csr_array, count: int, scale: float) -> tuple[
 
 def apart(squares: FloatArray) -> list[slice]:
     """Groups of modes of one frequency."""
-    new = np.flatnonzero(np.diff(squares, prepend=-np.inf) > SAME * squares)
-    return [slice(int(a), int(b)) for a, b in zip(new, np.append(new[1:], len(squares)), strict=True)]
+    new = np.flatnonzero(np.diff(squares, prepend=-np.inf) > SAME * squares).tolist()
+    return [slice(start, end) for start, end in zip(new, [*new[1:], len(squares)], strict=False)]

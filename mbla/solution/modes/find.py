@@ -42,11 +42,11 @@ def modes_at(assembly: Assembly, rest: Rest, count: int) -> Modes:
     rigid = np.tile(np.eye(6)[:, :3], (len(free), 1))
     feels = np.asarray(ways.T @ (parts.masses @ rigid))
     whole = _whole(masses, feels)
-    vectors = _turned(pairs, feels)
+    vectors = _turned(pairs, feels)[:, :count]
     shapes = _on_blocks(rest, parts, vectors)
     n = rest.bodies.contacts.n_surfaces
     return Modes(
-        periods=2.0 * np.pi / np.sqrt(pairs.squares),
+        periods=2.0 * np.pi / np.sqrt(pairs.squares[:count]),
         shapes=_scaled(assembly.model.blocks, shapes),
         masses=_shares((vectors.T @ feels) ** 2, whole),
         moving=whole / rest.bodies.model.units.force_per_mass_acceleration,

@@ -11,6 +11,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
+import scipy.sparse as sp
 import shapely
 
 from mbla.arrays import FloatArray, IntArray
@@ -18,6 +19,7 @@ from mbla.assembly.assembly import Assembly
 from mbla.assembly.lift import motions_of_bodies, parting
 from mbla.model.model import LoadCase
 from mbla.model.solids.blocks import Blocks
+from mbla.solution.linear_algebra.superlu import negative_pivots
 from mbla.solution.modes.modes import Modes
 from mbla.solution.verification.rest import UNBALANCED, AtRest, same, stiffness_of_deck
 from mbla.solution.verification.statics import contact_resultants, contact_velocities, left_to_balance, lever_arms
@@ -31,6 +33,15 @@ RESIDUAL = 1e-6
 OPEN = 1e-5
 """Force over the load of the lighter of two bodies with which a contact point is clearly pressed, or clearly open."""
 
+PRESSED = 1e-6
+"""The same with which a tie holds."""
+
+NOTHING = 1e-13
+"""ω² over the greatest K/M of an unknown that is none but for rounding."""
+
+CLOSE = 1e-6
+"""By how much below the highest ω² modes are counted, relative: of one frequency some may be left out."""
+
 FAR = 1e3
 """Size of a half plane over that of what it cuts."""
 
@@ -41,17 +52,18 @@ def checked_modes(assembly: Assembly, load_case: LoadCase, modes: Modes) -> tupl
         return replace(modes, residual=np.nan, verified=False), ()
     rest = AtRest.of(assembly, load_case, modes)
     vectors, wrong = _vectors(rest, modes), list(_wrong_at_rest(assembly, load_case, rest, modes))
-    pushes, momenta = _pushes(rest, modes, vectors), _momenta(assembly, rest, vectors)
+    stiffness, masses = _stiffness(rest, modes), _masses(assembly, rest)
+    flat = vectors.reshape(len(vectors), -1).T
+    pushes, momenta = ((each @ flat).T.reshape(vectors.shape) for each in (stiffness, masses))
     arms = np.repeat([np.ones(len(rest.model.blocks)), lever_arms(rest.model, rest.contacts)], 3, axis=0).T
-    squares = (2.0 * np.pi / modes.periods) ** 2
-    residual = 0.0
+    squares, residual, moves = (2.0 * np.pi / modes.periods) ** 2, 0.0, ~rest.model.fixed
     for push, momentum, square in zip(pushes, momenta, squares, strict=True):
-        left = left_to_balance(rest.model, push - square * momentum, arms[:, 3])[~rest.model.fixed]
-        size = float(np.linalg.norm((square * momentum / arms)[~rest.model.fixed]))
-        residual = max(residual, float(np.linalg.norm(left / arms[~rest.model.fixed])) / size)
+        left = left_to_balance(rest.model, push - square * momentum, arms[:, 3])[moves]
+        size = float(np.linalg.norm((square * momentum / arms)[moves]))
+        residual = max(residual, float(np.linalg.norm(left / arms[moves])) / size)
     if not residual <= RESIDUAL:
         wrong.append(f"a mode leaves {residual:.2g} of its forces without balance")
-    wrong += _wrong_masses(rest, modes, vectors, momenta)
+    wrong += [*_wrong_masses(rest, modes, vectors, momenta), *_left_out(rest, stiffness, masses, squares)]
     return replace(modes, residual=residual, verified=not wrong), tuple(wrong)
 
 
@@ -90,41 +102,49 @@ def same_share(shares: FloatArray, share: float) -> np.ndarray:
 # --- Stiffness ------------------------------------------------------------------------------------------------------
 
 
-def _pushes(rest: AtRest, modes: Modes, vectors: FloatArray) -> list[FloatArray]:
-    """K φ of each mode: forces and moments that push bodies back, (n_bodies, 6) each."""
+def _stiffness(rest: AtRest, modes: Modes) -> sp.csr_array:
+    """K of all bodies, (6 n_bodies, 6 n_bodies)."""
     contacts, model = rest.contacts, rest.model
     interface, places, weights = _quadrature(rest, modes)
-    frames = contacts.frames[contacts.point_start[interface]]
     laws = [model.joints[name] for name in contacts.joint_names]
     smooth = np.array([law.friction <= 0.0 and law.cohesion <= 0.0 for law in laws], dtype=bool)
     springs = weights[:, None] * rest.stiffness[interface][:, [0, 1, 1]]
     springs[smooth[contacts.joints[interface]], 1:] = 0.0
-    centres = np.vstack([model.blocks.centroids, np.zeros((len(model.grounds), 3))])
+    frames = contacts.frames[contacts.point_start[interface]]
     n, bodies = len(model.blocks), contacts.bodies[interface]
-    found = []
-    for vector in vectors:
-        every = np.vstack([vector, np.zeros((len(model.grounds), 6))])
-        ends = [every[own, :3] + np.cross(every[own, 3:], places - centres[own]) for own in bodies.T]
-        force = np.einsum("pj,pjx->px", springs * np.einsum("pjx,px->pj", frames, ends[1] - ends[0]), frames)
-        total = np.zeros((len(every), 6))
-        for own, sign in zip(bodies.T, (-1.0, 1.0), strict=True):
-            arm = places - centres[own]
-            np.add.at(total, own, sign * np.hstack([force, np.cross(arm, force)]))
-        found.append(total[:n] + _of_ties(rest, vector))
+    ways = sp.csr_array((3 * len(places), 6 * n))
+    for side, sign in ((0, -1.0), (1, 1.0)):
+        on = np.flatnonzero(bodies[:, side] < n)
+        own = bodies[on, side]
+        of_point = _motions(places[on] - model.blocks.centroids[own])
+        values = sign * frames[on] @ of_point
+        rows = np.broadcast_to((3 * on[:, None] + np.arange(3))[:, :, None], values.shape)
+        columns = np.broadcast_to((6 * own[:, None] + np.arange(6))[:, None, :], values.shape)
+        entries = (values.ravel(), (rows.ravel(), columns.ravel()))
+        ways = ways + sp.csr_array(sp.coo_array(entries, shape=ways.shape))
+    return sp.csr_array(ways.T @ sp.diags_array(springs.ravel()) @ ways + _of_ties(rest))
+
+
+def _motions(arms: FloatArray) -> FloatArray:
+    """Velocity of points at distances (n, 3) from a motion (v, ω), (n, 3, 6): v − r × ω."""
+    found = np.zeros((len(arms), 3, 6))
+    found[:, :, :3] = np.eye(3)
+    found[:, :, 3:] = -np.cross(arms[:, None, :], np.eye(3)).transpose(0, 2, 1)
     return found
 
 
-def _of_ties(rest: AtRest, vector: FloatArray) -> FloatArray:
+def _of_ties(rest: AtRest) -> sp.csr_array:
     """What ties that are not slack add to it."""
-    ties = rest.contacts.tie_points
-    if not ties.any():
-        return np.zeros_like(vector)
+    contacts, n = rest.contacts, len(rest.model.blocks)
     mean = rest.loads[~rest.model.fixed].mean()
-    holds = ties & (rest.pressed > OPEN * 0.1 * mean)
-    force = np.zeros((len(ties), 3))
-    closing = contact_velocities(rest.model, rest.contacts, vector)[:, 0]
-    force[:, 0] = np.where(holds, rest.points[:, 0] * closing, 0.0)
-    return contact_resultants(rest.model, rest.contacts, force)
+    holds = np.flatnonzero(contacts.tie_points & (rest.pressed > PRESSED * mean))
+    pulls = np.zeros((6 * n, len(holds)))
+    for column, point in enumerate(holds.tolist()):
+        force = np.zeros((len(contacts.points), 3))
+        force[point, 0] = 1.0
+        pulls[:, column] = contact_resultants(rest.model, contacts, force).ravel()
+    ways = sp.csr_array(pulls)
+    return sp.csr_array(ways @ sp.diags_array(rest.points[holds, 0]) @ ways.T)
 
 
 def _quadrature(rest: AtRest, modes: Modes) -> tuple[IntArray, FloatArray, FloatArray]:
@@ -173,19 +193,14 @@ def _cut(rest: AtRest, row: int, outline: FloatArray) -> FloatArray:
 # --- Masses ---------------------------------------------------------------------------------------------------------
 
 
-def _momenta(assembly: Assembly, rest: AtRest, vectors: FloatArray) -> list[FloatArray]:
-    """M φ of each mode about the centroids of the bodies, (n_bodies, 6) each, force per acceleration."""
-    blocks, label = assembly.model.blocks, rest.bodies.label
-    owner, places, masses = _mass_points(blocks)
-    body = label[owner]
-    arms = places - rest.model.blocks.centroids[body]
-    unit, found = rest.model.units.force_per_mass_acceleration, []
-    for vector in vectors:
-        moved = masses[:, None] * (vector[body, :3] + np.cross(vector[body, 3:], arms))
-        total = np.zeros_like(vector)
-        np.add.at(total, body, np.hstack([moved, np.cross(arms, moved)]))
-        found.append(unit * total)
-    return found
+def _masses(assembly: Assembly, rest: AtRest) -> sp.csr_array:
+    """M of all bodies about their centroids, (6 n_bodies, 6 n_bodies) force per acceleration."""
+    owner, places, masses = _mass_points(assembly.model.blocks)
+    body = rest.bodies.label[owner]
+    ways = _motions(places - rest.model.blocks.centroids[body])
+    total = np.zeros((len(rest.model.blocks), 6, 6))
+    np.add.at(total, body, masses[:, None, None] * ways.transpose(0, 2, 1) @ ways)
+    return sp.csr_array(sp.block_diag(total)) * rest.model.units.force_per_mass_acceleration
 
 
 def _mass_points(blocks: Blocks) -> tuple[IntArray, FloatArray, FloatArray]:
@@ -207,15 +222,51 @@ def _mass_points(blocks: Blocks) -> tuple[IntArray, FloatArray, FloatArray]:
     )
 
 
-def _wrong_masses(rest: AtRest, modes: Modes, vectors: FloatArray, momenta: list[FloatArray]) -> Iterator[str]:
+def _wrong_masses(rest: AtRest, modes: Modes, vectors: FloatArray, momenta: FloatArray) -> Iterator[str]:
     """Modes that are not orthogonal, or whose masses are not those that take part."""
     gram = np.array([[float(np.vdot(one, other)) for other in momenta] for one in vectors])
     size = np.sqrt(np.diag(gram))
     off = np.abs(gram / np.outer(size, size) - np.eye(len(size))).max()
     if not off <= RESIDUAL:
         yield f"modes are not orthogonal, by {off:.2g}"
-    feels = np.array([momentum[~rest.model.fixed, :3].sum(axis=0) for momentum in momenta])
+    feels = momenta[:, ~rest.model.fixed, :3].sum(axis=1)
     unit = rest.model.units.force_per_mass_acceleration
     shares = (feels / size[:, None]) ** 2 / np.where(modes.moving > 0.0, modes.moving * unit, 1.0)
     if not np.abs(shares - modes.masses).max() <= RESIDUAL:
         yield "masses that take part are not those of the modes"
+
+
+# --- Numbers of modes -----------------------------------------------------------------------------------------------
+
+
+def _left_out(rest: AtRest, stiffness: sp.csr_array, masses: sp.csr_array, squares: FloatArray) -> Iterator[str]:
+    """That modes are left out: between nothing and the highest ω² lie more than are given.
+
+    By the law of inertia (Sylvester) K − σ M has as many negative pivots as there are modes below σ.
+    """
+    free = np.flatnonzero(np.repeat(~rest.model.fixed, 6))
+    ways = _ways(rest)[free]
+    unit = sp.diags_array(1.0 / np.sqrt((ways.T @ masses[free][:, free] @ ways).diagonal()))
+    k, m = (sp.csr_array(unit @ ways.T @ each[free][:, free] @ ways @ unit) for each in (stiffness, masses))
+    highest = squares[-1] * (1.0 - CLOSE)
+    below = [negative_pivots(k - shift * m) for shift in (NOTHING * float(k.diagonal().max()), highest)]
+    if below[0] is None or below[1] is None:
+        return
+    if (missed := below[1] - below[0] - int((squares < highest).sum())) > 0:
+        words = "mode of a longer period than the shortest is" if missed == 1 else "modes of longer periods are"
+        yield f"{missed} {words} left out"
+
+
+def _ways(rest: AtRest) -> sp.csr_array:
+    """Motions of all bodies that guides allow, by columns."""
+    guides, n = rest.model.guides, len(rest.model.blocks)
+    alone = np.setdiff1d(np.flatnonzero(~rest.model.fixed), guides.blocks)
+    own = (6 * alone[:, None] + np.arange(6)).ravel()
+    parts = [sp.coo_array((np.ones(len(own)), (own, np.arange(len(own)))), shape=(6 * n, len(own)))]
+    for body in range(guides.n_bodies):
+        whole = np.zeros((n, 6, guides.motions.shape[2]))
+        mine = guides.bodies == body
+        whole[guides.blocks[mine]] = guides.motions[mine]
+        used = np.abs(whole).max(axis=(0, 1)) > 0.0
+        parts.append(sp.coo_array(whole[:, :, used].reshape(6 * n, -1)))
+    return sp.csr_array(sp.hstack(parts))

@@ -28,6 +28,15 @@ def found() -> tuple[Assembly, LoadCase, Modes]:
     return assembly, case, modes_of(assembly, case, 4)
 
 
+def test_a_mode_that_is_left_out_is_missed(arch: tuple[Assembly, LoadCase, Modes]) -> None:
+    assembly, case, modes = arch
+    rows = [0, 1, 3]
+    kept = {name: getattr(modes, name)[rows] for name in ("periods", "shapes", "masses")}
+    checked, wrong = checked_modes(assembly, case, replace(modes, **kept))
+    assert not checked.verified
+    assert wrong == ("1 mode of a longer period than the shortest is left out",)
+
+
 def test_modes_are_verified(arch: tuple[Assembly, LoadCase, Modes]) -> None:
     checked, wrong = checked_modes(*arch)
     assert wrong == ()
