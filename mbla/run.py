@@ -6,7 +6,7 @@ import time
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from pathlib import Path
-from typing import TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
 from mbla.assembly import Assembly, build_assembly
 from mbla.contacts.known import KnownContacts
@@ -21,6 +21,7 @@ from mbla.results.files import OutputFolder
 from mbla.results.partial import Partial
 from mbla.results.provenance import as_expected, results_before, with_case
 from mbla.results.results import CaseResult, Results
+from mbla.results.resumed import NOTHING_DONE, Resumed, resumed
 from mbla.results.series import position_to_push
 from mbla.results.status_file import StatusFile
 from mbla.results.write import write_results
@@ -31,6 +32,9 @@ from mbla.solution.settings import SolverSettings, settings_for, solver_settings
 from mbla.solution.solution import IterationRecord, Status
 from mbla.solution.standing.standing import StressFreeStates
 from mbla.solution.time_history.progress import TimeProgress
+
+if TYPE_CHECKING:
+    from mbla.solution.time_history.checkpoint import Unfinished
 
 Progress = Callable[[str, IterationRecord | TimeProgress], None]
 T = TypeVar("T")
@@ -78,7 +82,8 @@ def run_and_write(deck: Deck, options: RunOptions, progress: Progress | None, st
         with out:
             try:
                 status_file = StatusFile(out.open_live(f"{stem}.sta"), deck.title)
-                for results in solved_case_by_case(deck, options, status_file, each, started, partial.at_work):
+                earlier = resumed(deck, folder) if options.resume else NOTHING_DONE
+                for results in solved_case_by_case(deck, options, status_file, each, started, partial.at_work, earlier):
                     partial.done(results)
                 return write_results(results, out, output)
             except BaseException:
@@ -116,12 +121,14 @@ def solved_case_by_case(
     progress: Progress | None,
     started: float,
     at_work: Tell[Results] = unheard,
+    earlier: Resumed = NOTHING_DONE,
     states: StressFreeStates | None = None,
     contacts: KnownContacts | None = None,
 ) -> Iterator[Results]:
     """As ``solve_deck``: the results so far, before any load case is solved and after each of them.
 
     at_work : told how to make results with what there is of a load case that takes long
+    earlier : what a run before has left, which is not done again
 
     Raises DeckError for faults of the deck, UsageError for load cases that it does not have and where expectations are
     asked for and it has none.
@@ -140,7 +147,10 @@ def solved_case_by_case(
             tell = _teller(at_work, results, found, stopwatch)
             travels = load_case.question.place.count  # which of its positions is pushed is known when all are solved
             case = replace(load_case, pushover=None) if travels else load_case
-            solved = solve_case(deck, assembly, case, settings, status_file, progress, tell, states)
+            solved = earlier.done.get(case.name)
+            if solved is None:
+                begin = earlier.unfinished.get(case.name)
+                solved = solve_case(deck, assembly, case, settings, status_file, progress, tell, states, begin)
             results = with_case(results, solved, time.perf_counter() - found, stopwatch)
             left = {each.deck_name for each in load_cases if each.name in results.not_done}
             chosen = None if load_case.deck_name in left else position_to_push(load_case, assembly.model, results.cases)
@@ -194,16 +204,18 @@ def solve_case(
     progress: Progress | None,
     tell: Tell[CaseResult] = unheard,
     states: StressFreeStates | None = None,
+    begin: Unfinished | None = None,
 ) -> CaseResult:
     """One load case solved and verified, with what is asked besides.
 
-    tell   : told how to make the load case as far as it has come, where it is pushed on
+    tell   : told how to make the load case as far as it has come, where it is pushed on, or followed in time
     states : of stress-free assemblies that are known from load cases before
+    begin  : of its time history that was stopped, with which that goes on
     """
     log = _log_of(load_case, status_file, progress)
     answer = answered(assembly, load_case, settings, log, states)
     if load_case.time_history is not None and answer.status is Status.SOLVED:
-        answer = _in_time(deck, assembly, answer, settings, log, tell)
+        answer = _in_time(deck, assembly, answer, settings, log, tell, begin)
     status_file.remark(f"{load_case.name}: {answer.status}")
     case = CaseResult(answer.load_case, answer.solution, answer.checks, answer.status)
     if load_case.modes and (load_case.has_load_factor or load_case.time_history is not None):
@@ -296,26 +308,20 @@ def _in_time(
     settings: SolverSettings,
     log: Callable[[TimeProgress], None],
     tell: Tell[CaseResult],
+    begin: Unfinished | None,
 ) -> SolvedCase:
     """A load case that stands, followed in time; not verified where it cannot be."""
-    from mbla.solution.sequence.history import with_history  # late: few load cases are
-    from mbla.solution.time_history.follow import Followed, follow
-    from mbla.solution.time_history.why_not_followed import why_not_followed
+    from mbla.solution.sequence.history import Part, followed  # late: few load cases are
 
-    model = assembly.model.of_case(stands.load_case)
-    if against := why_not_followed(model, assembly.contacts, stands.solution):
-        words = f"there is no time history: {against}"
-        return replace(stands, solution=replace(stands.solution, status=Status.NOT_VERIFIED, reason=words))
+    def so_far(make: Callable[[], Part]) -> None:
+        def part() -> CaseResult:
+            answer, unfinished = make()
+            case = CaseResult(answer.load_case, answer.solution, answer.checks, answer.status)
+            return replace(_finished(assembly, case), checkpoint=unfinished)
 
-    def case_of(found: Followed) -> CaseResult:
-        answer = with_history(assembly, stands, *found[:2])
-        return _finished(assembly, CaseResult(answer.load_case, answer.solution, answer.checks, answer.status))
+        tell(part)
 
-    def so_far(make: Callable[[], Followed]) -> None:
-        tell(lambda: case_of(make()))
-
-    found, remarks = follow(assembly, deck.contacts, stands.load_case, settings, log, so_far)
-    return with_history(assembly, stands, found, remarks)
+    return followed(assembly, deck.contacts, stands, settings, log, so_far, begin)
 
 
 def _finished(assembly: Assembly, case: CaseResult) -> CaseResult:

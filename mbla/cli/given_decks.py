@@ -52,6 +52,7 @@ def run_options(options: argparse.Namespace, *, override: bool = True) -> RunOpt
         force=options.force,
         threads=getattr(options, "threads", 1),
         expected=getattr(options, "expected", False),
+        resume=getattr(options, "resume", False),
     )
 
 

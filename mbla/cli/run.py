@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import math
 import sys
 import time
 from collections.abc import Sequence
@@ -42,6 +43,8 @@ def add(commands: Any) -> None:
     words = "threads of the linear algebra libraries, at most (default 1); factorisations are serial"
     command.add_argument("--threads", type=threads, default=1, metavar="N", help=words)
     command.add_argument("--expected", action="store_true", help="compare with the deck's expected section")
+    words = "go on from what a run of the deck that was stopped has left: load cases that were done, a time history"
+    command.add_argument("--resume", action="store_true", help=words)
     volume = command.add_mutually_exclusive_group()
     add_quiet(volume)
     volume.add_argument("-v", "--verbose", action="store_true", help="print the listing instead of the summary")
@@ -105,26 +108,32 @@ def _progress() -> Progress | None:
     """A line that rewrites itself on a terminal; nothing elsewhere."""
     if not sys.stderr.isatty():
         return None
-    shown = [0.0]
+    shown, first = [0.0], dict[tuple[str, bool], Any]()
 
     def show(case: str, record: Any) -> None:
         if hasattr(record, "program"):
             text = f"{case}: program {record.program}, iteration {record.iteration}"
             rewrite_line(f"{text}, load factor {record.load_factor:.6g}")
-        elif time.monotonic() - shown[0] >= BETWEEN or record.share >= 1.0:
+            return
+        begun = first.setdefault((case, record.half), record)
+        if time.monotonic() - shown[0] >= BETWEEN or record.share >= 1.0:
             shown[0] = time.monotonic()
-            rewrite_line(in_time(case, record))
+            rewrite_line(in_time(case, record, begun))
 
     return show
 
 
-def in_time(case: str, record: Any) -> str:
-    """``quake: [########..............]  36 %, 9.1 of 25 s, 1 min 20 s to go``."""
-    done = round(CELLS * record.share)
-    half = ", half of the step" if record.half else ""
-    bar = f"[{'#' * done}{'.' * (CELLS - done)}] {100.0 * record.share:3.0f} %"
-    missed = f", {record.missed} steps missed" if record.missed else ""
-    return f"{case}{half}: {bar}, {record.time:.3g} of {record.duration:g} s, {_lasting(record.to_go)} to go{missed}"
+def in_time(case: str, record: Any, first: Any) -> str:
+    """``quake: [########..............]  36 %, 9.1 of 25 s, 1 min 20 s to go``.
+
+    first : step of the same, from which speed counts
+    """
+    done = round(CELLS * min(record.share, 1.0))
+    half, to_go = ", half of the step" if record.half else "", record.to_go(first)
+    words = f"{case}{half}: [{'#' * done}{'.' * (CELLS - done)}] {100.0 * record.share:3.0f} %"
+    words += f", {record.time:.3g} of {record.duration:g} s"
+    words += "" if math.isnan(to_go) else f", {_lasting(to_go)} to go"
+    return words + (f", {record.missed} steps missed" if record.missed else "")
 
 
 def _lasting(seconds: float) -> str:

@@ -16,6 +16,7 @@ class RunOptions:
     force     : replace an earlier result
     threads   : asked for, of libraries that can use several
     expected  : compare with the deck's ``expected`` section
+    resume    : go on from what a run of the same deck that was stopped has left
     """
 
     folder: Path | None = None
@@ -24,6 +25,7 @@ class RunOptions:
     force: bool = False
     threads: int = 1
     expected: bool = False
+    resume: bool = False
 
     def folder_for(self, deck_path: Path) -> Path:
         """Where the results of a deck go."""

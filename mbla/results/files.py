@@ -39,7 +39,8 @@ from mbla.results.disk import (
 RESULT_SUFFIXES = (".h5", ".lst", ".json", ".sta")
 """files STEM + suffix that make an earlier result"""
 OWN_FILES = (
-    r"(\.(h5|lst|json|sta|html|svg|pdf|png|gif|mp4)|_[A-Za-z0-9_.@-]+\.(vtu|csv|pvd|py|html|svg|pdf|png|gif|mp4))"
+    r"(\.(h5|lst|json|sta|checkpoint|html|svg|pdf|png|gif|mp4)"
+    r"|_[A-Za-z0-9_.@-]+\.(vtu|csv|pvd|py|html|svg|pdf|png|gif|mp4))"
 )
 """what may follow the stem in the name of a file that a result lists as its own"""
 

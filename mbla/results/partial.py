@@ -1,11 +1,13 @@
 """What a run has done so far, on the disk while it goes on: ``STEM.partial.h5``, ``.lst`` and ``.json``.
 
+A structure that is followed in time leaves ``STEM.partial.checkpoint`` as well, from where it can go on.
+
 They stand in the folder of the results, next to an earlier result and never in its place, and say that they are not
 complete and what is not done. Each is written under a temporary name and renamed over the one before, so that a run
 that is killed at any moment leaves the last whole ones. They are written when a load case is done, and while a pushover
-goes on, but only where much more time has passed than writing takes. A run that is stopped (a signal, too little
-memory, a defect) writes them once more, with its ``.sta``. They give way to the files of the next complete run of the
-deck, and of the next partial one.
+or a time history goes on, but only where much more time has passed than writing takes. A run that is stopped (a signal,
+too little memory, a defect) writes them once more, with its ``.sta``. They give way to the files of the next complete
+run of the deck, and of the next partial one.
 
 A run that is refused (its deck, its options) leaves nothing: it has reported why, and gets as far again.
 """
@@ -24,6 +26,7 @@ from mbla.results.disk import file_errors, missing_folders, remove_folders, writ
 from mbla.results.failures import StoppedRun, words_of
 from mbla.results.files import OutputFolder, earlier_files, is_partial, partial_stem
 from mbla.results.results import Results
+from mbla.results.resumed import SUFFIX, checkpoint_file
 from mbla.results.write import write_record
 
 SHARE = 20.0
@@ -113,6 +116,8 @@ class Partial:
         files = _Files(self._stem)
         if self._status:
             files.write_bytes(f"{self._stem}.sta", self._status)
+        if (checkpoint := checkpoint_file(results)) is not None:
+            files.write_bytes(f"{self._stem}{SUFFIX}", checkpoint)
         results = write_record(results, files, every_position=self._every_position)
         for name in set(earlier) - set(files.content):
             with file_errors(self._folder / name):

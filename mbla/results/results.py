@@ -6,6 +6,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from datetime import UTC, datetime
+from typing import TYPE_CHECKING
 
 from mbla.assembly.assembly import Assembly
 from mbla.contacts.contacts import Contacts
@@ -14,6 +15,9 @@ from mbla.model.model import LoadCase, Model
 from mbla.results.assessment import Assessment
 from mbla.solution.further.further import Further
 from mbla.solution.solution import Checks, Solution, Status
+
+if TYPE_CHECKING:
+    from mbla.solution.time_history.checkpoint import Unfinished
 
 
 def now() -> str:
@@ -44,6 +48,7 @@ class CaseResult:
     """One load case with its solution, verification and final status (never better than verification allows).
 
     assessment : what a code says of it; None where none is asked
+    checkpoint : of one that is at work in time, from where it can go on; in no result file
     """
 
     load_case: LoadCase
@@ -51,6 +56,7 @@ class CaseResult:
     checks: Checks
     status: Status
     assessment: Assessment | None = None
+    checkpoint: Unfinished | None = field(default=None, compare=False)
 
     def with_further(self, further: Further, remarks: Sequence[Message]) -> CaseResult:
         """The same case with further results beside its answer, and what these have to say."""

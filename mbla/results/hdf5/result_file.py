@@ -26,8 +26,10 @@ from mbla.results.hdf5.layout import (
     Value,
     differences,
     fields_of,
+    text_of,
 )
 from mbla.results.hdf5.reading import DAMAGE, asked_of, in_one_line, results_of
+from mbla.results.hdf5.stored_record import KINDS, StoredRecord
 from mbla.results.quantities.quantity import NOT_VERIFIED, Quantity, unit_text
 from mbla.results.record.scene import as_text
 from mbla.results.results import Results
@@ -116,6 +118,42 @@ def read_results_hdf5(path: Path, *, to_verify: bool = False) -> Results:
         what = "not an HDF5 file" if "signature not found" in str(error) else f"damaged: {in_one_line(error)}"
         raise FileError("damaged-result-file", f"{path}: {what}") from error
     except DAMAGE as error:
+        raise FileError("damaged-result-file", f"{path}: damaged: {in_one_line(error)}") from error
+
+
+CHECKPOINT = "mbla checkpoint"
+"""filetype of what a run can go on from"""
+
+
+def write_checkpoint_hdf5(record: StoredRecord, about: Mapping[str, str]) -> bytes:
+    """A record that a run can go on from, as a file.
+
+    about : deck, program and load case, as attributes
+    """
+    with _image() as (image, file):
+        file.attrs.update({"filetype": CHECKPOINT, **about})
+        file["tree"] = np.frombuffer(record.tree.encode("utf-8"), dtype=np.uint8)
+        for kind, values in record.arrays.items():
+            packed = {"compression": "gzip", "shuffle": True} if len(values) else {}
+            file.create_dataset(kind, data=values, **packed)
+    return image.getvalue()
+
+
+def read_checkpoint_hdf5(path: Path) -> tuple[StoredRecord, dict[str, str]]:
+    """The record in such a file with its attributes; FileError where it is no such file, or damaged."""
+    import h5py
+
+    _try_opening(path)
+    try:
+        with h5py.File(path, "r", locking=False) as file:
+            about = {name: text_of(value) for name, value in file.attrs.items()}
+            if about.get("filetype") != CHECKPOINT:
+                raise FileError("damaged-result-file", f"{path}: is not what a run can go on from")
+            tree, arrays = file["tree"][()].tobytes().decode("utf-8"), {kind: file[kind][()] for kind in KINDS}
+            return StoredRecord(tree, arrays), about
+    except FileError:
+        raise
+    except (OSError, *DAMAGE) as error:
         raise FileError("damaged-result-file", f"{path}: damaged: {in_one_line(error)}") from error
 
 

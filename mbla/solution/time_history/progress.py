@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 
@@ -36,7 +37,7 @@ class TimeProgress:
         """Of the duration that is done."""
         return self.time / self.duration
 
-    @property
-    def to_go(self) -> float:
-        """Seconds that the rest takes at the speed so far."""
-        return self.seconds * (1.0 / self.share - 1.0)
+    def to_go(self, first: TimeProgress) -> float:
+        """Seconds that the rest takes at the speed since another step."""
+        done = self.time - first.time
+        return (self.duration - self.time) * (self.seconds - first.seconds) / done if done > 0.0 else math.nan

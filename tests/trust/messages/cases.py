@@ -195,6 +195,15 @@ def two_decks_of_one_name(folder: Path, patch: Patch) -> object:
     return command("run", str(write(folder, BLOCK)), str(write(folder, BLOCK, "b/deck.yaml")), "-o", str(folder))
 
 
+@brings("resume-of-another")
+def rest_of_another_deck(folder: Path, patch: Patch) -> object:
+    deck, left = write(folder, BLOCK), replace(tower_results(), complete=False, not_done=("not_run",))
+    (folder / "deck.out").mkdir()
+    (folder / "deck.out" / "deck.partial.h5").write_bytes(write_results_hdf5(left))
+    (folder / "deck.out" / "deck.partial.json").write_text('{"complete": false}', encoding="utf-8")
+    return command("run", str(deck), "--resume", "-q")
+
+
 @brings("load-case-not-chosen")
 def result_of_several_load_cases(folder: Path, patch: Patch) -> object:
     one = tower_results()
@@ -262,6 +271,7 @@ COMMANDS = {
     "command_without_a_deck": ("command-line", "run"),
     "identifier_that_nothing_has": ("explain-unknown", "explain xyzzy"),
     "load_case_that_the_deck_lacks": ("unknown-load-case", "run {deck} --case pull"),
+    "nothing_that_was_stopped": ("nothing-to-resume", "run {deck} --resume -q"),
     "nothing_expected": ("no-expectations", "run {deck} --expected -q"),
     "picture_as_a_text": ("output-format", "plot {result} -o {folder}/a.bmp"),
     "picture_of_an_unknown_kind": ("picture-option", "plot {result} --dpi 9"),
