@@ -25,6 +25,7 @@ from mbla.run import RunOptions, run
 from tests.decks.folder import BENCHMARKS
 from tests.results.json_keys import values_below
 from tests.results.results_page import RECORD
+from tests.results.rocking import rocking_case
 from tests.results.synthetic import full_results
 
 ROOT = Path(__file__).parents[2]
@@ -75,7 +76,8 @@ def records(folder: Path) -> list[dict[str, Any]]:
         check_json(*check(read_deck(beam), RunOptions(), vtu=False, started=time.perf_counter())),
         check_json(replace(full, assembly=replace(full.assembly, contacts=lonely)), {}),
     ]
-    return [*own, json.loads(json_line(results_json(full))), *checked]
+    in_time = replace(full, cases=(rocking_case(full.cases[1]),))
+    return [*own, *(json.loads(json_line(results_json(each))) for each in (full, in_time)), *checked]
 
 
 def walk(record: dict[str, Any], known: dict[str, str], seen: set[str]) -> None:

@@ -35,7 +35,7 @@ def held_against_history(found: Found, deck: Deck, assembly: Assembly, case: Cas
     if cut:
         load_case = replace(load_case, time_history=replace(asked, duration=float(own.rows.times[-1]), check=False))
     settings = replace(settings_for(load_case, solver_settings(deck.analysis)), deadline=None)
-    again, _, _ = follow(assembly, deck.contacts, load_case, settings)
+    again, _ = follow(assembly, deck.contacts, load_case, settings)
     against = list(_others(own, again, cut=cut))
     if against:
         found.unconfirmed.append(f"followed anew, the structure in time comes to others: {', '.join(against)}")
