@@ -125,15 +125,21 @@ class FrameCheck:
         load = float(own.mean()) if len(own) and own.any() else float(np.abs(frames.momenta).max(initial=0.0)) / h
         return float(np.abs(off).max(initial=0.0)) / max(load * h, 1e-300)
 
+    def inertia_ahead(self, frame: int, moved: MovedSolids) -> FloatArray:
+        """Of the bodies half a step ahead, (n_solids, 3, 3)."""
+        frames, solids = self.frames, self.solids
+        before = float(frames.lengths_before[frame])
+        begun = spins_before(solids, moved, frames.momenta_before[frame, :, 3:], before)
+        ahead = rotations_of(begun * frames.lengths[frame] / 2.0) @ moved.rotations
+        return np.asarray(ahead @ solids.tensors @ ahead.transpose(0, 2, 1))
+
     def _velocities(self, frame: int, moved: MovedSolids) -> float:
         """Of every block against the momentum of its body after the step."""
         frames, solids = self.frames, self.solids
         motion, momenta = frames.velocities[frame], frames.momenta[frame]
         label, size = solids.label, solids.sizes[solids.label]
         can = solids.free & (solids.masses > 0.0)
-        begun = spins_before(solids, moved, frames.momenta_before[frame, :, 3:], float(frames.lengths_before[frame]))
-        ahead = rotations_of(begun * frames.lengths[frame] / 2.0) @ moved.rotations
-        inertia = ahead @ solids.tensors @ ahead.transpose(0, 2, 1)
+        inertia = self.inertia_ahead(frame, moved)
         spin, speed = np.zeros((len(solids), 3)), np.zeros((len(solids), 3))
         spin[can] = np.linalg.solve(inertia[can], momenta[can, 3:, None])[:, :, 0]
         speed[can] = momenta[can, :3] / solids.masses[can, None]
@@ -179,11 +185,17 @@ class FrameContact:
     step: float
 
     @staticmethod
-    def of(check: FrameCheck, frame: int, moved: MovedSolids, points: PointSet) -> FrameContact:
-        """Of a frame."""
+    def of(
+        check: FrameCheck, frame: int, moved: MovedSolids, points: PointSet, motion: FloatArray | None = None
+    ) -> FrameContact:
+        """Of a frame.
+
+        motion : (n_blocks, 6) that ``closing`` is of; that after the step unless given
+        """
         frames, model = check.frames, check.solids.model
+        motion = frames.velocities[frame] if motion is None else motion
         surface = points.bodies[:, 0] >= 0
-        bodies, motion = points.bodies[surface], frames.velocities[frame]
+        bodies = points.bodies[surface]
         ends = moved.points(bodies[:, 0], points.arms[surface, 0]), moved.points(bodies[:, 1], points.arms[surface, 1])
         host = np.where(points.host[surface], bodies[:, 1], bodies[:, 0])
         axes = moved.turned(host, points.frames[surface])

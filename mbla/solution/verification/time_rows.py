@@ -2,8 +2,8 @@
 
 The energy that bodies gain is what base and forces do less what joints take, in every row. Kinetic energy follows from
 the momenta of frames, with the inertia half a step before; what the dead load gains from the poses, and from where mass
-centres were half a step before: energies are those then. In a step the base does −(p₋ + p)/2·ΔV_g on all bodies, and
-about as much with what two frames have at the begin and the end of the time between them.
+centres were half a step before: energies are those then. What a step does is derived from frames where it was made at
+once (:mod:`mbla.solution.verification.time_works`).
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mbla.arrays import FloatArray, IntArray, summed
+from mbla.arrays import BoolArray, IntArray, summed
 from mbla.model.model import LoadCase
 from mbla.model.motion.time_history import TimeHistory
 from mbla.solution.time_history.frames import Frames
@@ -31,15 +31,13 @@ class RowResidual:
     balance   : of gains, work and what joints take, in a row
     kinetic   : of a row against the momenta of the frame that begins there
     potential : of a row against the poses of that frame
-    base      : work of the base against momenta of frames and the record, up to a frame; over what it does and undoes
-    loss      : by how much what joints have dissipated falls below what it was
+    base      : by how much the base does more in a step than it can, by the kinetic energies before and after it
     """
 
     balance: float
     kinetic: float
     potential: float
     base: float
-    loss: float
 
 
 def greatest_energy(rows: StepRows) -> float:
@@ -67,14 +65,11 @@ def row_residual(case: LoadCase, history: TimeHistory, solids: Solids, rows: Ste
     on = at >= 0
     kinetic = np.array([_kinetic(solids, frames, frame) for frame in range(len(frames))])
     gained = np.array([_gained(case, history, solids, frames, frame) for frame in range(len(frames))])
-    dissipated = (taken - rows.elastic)[1:]  # at rest nothing is said of what is stored
-    work, size = _base_work(history, solids, frames)
     return RowResidual(
         balance=float(np.abs(lacks).max()) / scale,
         kinetic=float(np.abs(kinetic - rows.kinetic[at])[on].max(initial=0.0)) / scale,
         potential=float(np.abs(gained - rows.potential[at])[on].max(initial=0.0)) / scale,
-        base=float(np.abs(work - rows.base[at])[on].max(initial=0.0)) / max(scale, size),
-        loss=_fall(dissipated) / scale,
+        base=_base_beyond(history, solids, rows) / scale,
     )
 
 
@@ -96,16 +91,22 @@ def _gained(case: LoadCase, history: TimeHistory, solids: Solids, frames: Frames
     return -float((forces[can] * ((moved.centres - begun.centres)[can] - back)).sum())
 
 
-def _base_work(history: TimeHistory, solids: Solids, frames: Frames) -> tuple[FloatArray, float]:
-    """Work of the base up to each frame, (n_frames,), and the sum of what it does and undoes."""
-    before, after = (each[:, solids.free, :3].sum(axis=1) for each in (frames.momenta_before, frames.momenta))
-    begins, ends = frames.times - frames.lengths_before / 2.0, frames.times + frames.lengths / 2.0
-    inside = -((before + after) / 2.0 * base_changes(history, begins, ends)).sum(axis=1)
-    between = -((after[:-1] + before[1:]) / 2.0 * base_changes(history, ends[:-1], begins[1:])).sum(axis=1)
-    parts = inside[:-1] + between
-    return np.concatenate([[0.0], np.cumsum(parts)]), float((np.abs(inside[:-1]) + np.abs(between)).sum())
+def whole_steps(rows: StepRows) -> BoolArray:
+    """Which steps of the deck were made at once, (n,): none in the place of them."""
+    changed = np.diff(rows.small_steps) != 0
+    return np.asarray(~(changed | (np.diff(rows.halved) != 0) | (np.diff(rows.missed) != 0)))
 
 
-def _fall(values: FloatArray) -> float:
-    """Largest, below the greatest value before."""
-    return float((np.maximum.accumulate(values) - values).max(initial=0.0)) if len(values) else 0.0
+def _base_beyond(history: TimeHistory, solids: Solids, rows: StepRows) -> float:
+    """Largest work of the base in a step beyond √(2 m K)·ΔV, with the mass m of all and the mean of both roots.
+
+    In a step the base does −(p₋ + p)/2·ΔV, and momentum is largest where all move alike. Only of steps made at once, as
+    those before them, whose middles are known.
+    """
+    whole = whole_steps(rows)
+    known = np.flatnonzero(whole[1:] & whole[:-1]) + 1
+    middles = (rows.times[1:] + rows.times[:-1]) / 2.0
+    changes = np.linalg.norm(base_changes(history, middles[known - 1], middles[known]), axis=1)
+    roots = np.sqrt(2.0 * float(solids.masses[solids.free].sum()) * np.maximum(rows.kinetic, 0.0))
+    most = (roots[known] + roots[known + 1]) / 2.0 * changes
+    return float((np.abs(np.diff(rows.base))[known] - most).max(initial=0.0))

@@ -136,13 +136,18 @@ class Block:
             turn = Rotation.from_rotvec(-spin * state.before / 2.0).as_matrix() @ state.turn
         return spin
 
+    def masses_ahead(self, state: State, h: float) -> FloatArray:
+        """Mass and inertia half a step ahead, (6, 6)."""
+        half = Rotation.from_rotvec(self.spin(state) * h / 2.0).as_matrix() @ state.turn
+        masses = np.zeros((6, 6))
+        masses[:3, :3], masses[3:, 3:] = self.mass * np.eye(3), half @ self.tensor @ half.T
+        return masses
+
     def _step(self, state: State, h: float) -> Step:
         free = state.momentum.copy()
         free[2] -= self.mass * G * (h + state.before) / 2.0
         free[:3] -= self.mass * self.gain(state.time - state.before / 2.0, state.time + h / 2.0)
-        half = Rotation.from_rotvec(self.spin(state) * h / 2.0).as_matrix() @ state.turn
-        masses = np.zeros((6, 6))
-        masses[:3, :3], masses[3:, 3:] = self.mass * np.eye(3), half @ self.tensor @ half.T
+        masses = self.masses_ahead(state, h)
         r = self.arms @ state.turn.T
         room = (h + DASHPOT) * self.stiffness
         pressed = -self.stiffness[0] * (state.place + r)[:, 2]
@@ -288,30 +293,35 @@ def _base(block: Block, times: FloatArray) -> FloatArray:
 def _rows(block: Block, steps: Sequence[Step]) -> StepRows:
     n, zeros, whole = len(steps), np.zeros(len(steps)), np.zeros(len(steps), dtype=np.int64)
     states = [step.state for step in steps]
-    kinetic, friction, base = zeros.copy(), zeros.copy(), zeros.copy()
+    kinetic, elastic = zeros.copy(), zeros.copy()
+    taken = np.zeros((n, 3))
     for row, state in enumerate(states):
         turning = block.spin(state) @ state.momentum[3:]
         kinetic[row] = (state.momentum[:3] ** 2).sum() / (2.0 * block.mass) + turning / 2.0
         if row:
             last, step = states[row - 1], steps[row - 1]
-            mean = (state.momentum[:3] + last.momentum[:3]) / 2.0
-            base[row] = -mean @ block.gain(last.time - last.before / 2.0, state.time - state.before / 2.0)
-            u = step.velocity[:3] + np.cross(step.velocity[3:], block.arms @ last.turn.T)
-            friction[row] = -(state.time - last.time) * float((step.forces[:, 1:] * u[:, :2]).sum())
-    friction, base = np.cumsum(friction), np.cumsum(base)
+            between = state.time - state.before / 2.0 - last.time + last.before / 2.0
+            mean = np.linalg.solve(block.masses_ahead(last, state.before), (state.momentum + last.momentum) / 2.0)
+            gain = block.gain(last.time - last.before / 2.0, state.time - state.before / 2.0)
+            u = mean[:3] + np.cross(mean[3:], block.arms @ last.turn.T)
+            work = -between * step.forces * u[:, [2, 0, 1]]
+            taken[row] = -block.mass * mean[:3] @ gain, work[:, 1:].sum(), work[:, 0].sum()
+            elastic[row] = float(((step.forces[:, 0] ** 2).sum() / block.stiffness[0]) / 2.0)
+            elastic[row] += float((state.kept**2).sum() / block.stiffness[1]) / 2.0
+    base, friction, contacts = np.cumsum(taken, axis=0).T
     height = np.array([state.place[2] - state.before * state.momentum[2] / block.mass / 2.0 for state in states])
     potential = block.mass * G * (height - height[0])
     return StepRows(
         times=np.array([state.time for state in states]),
         kinetic=kinetic,
         potential=potential,
-        elastic=np.array([_stored(block, state) for state in states]),
+        elastic=elastic,
         friction=friction,
-        contacts=base - kinetic - potential - friction,
+        contacts=contacts,
         ties=zeros,
         base=base,
         forces=zeros,
-        numerical=zeros,
+        numerical=kinetic + potential + contacts + friction - base,
         residuals=zeros,
         factorisations=np.arange(n),
         small_steps=whole,
@@ -319,12 +329,6 @@ def _rows(block: Block, steps: Sequence[Step]) -> StepRows:
         missed=whole,
         pressing=whole,
     )
-
-
-def _stored(block: Block, state: State) -> float:
-    """Energy in the joints."""
-    gaps = np.minimum((state.place + block.arms @ state.turn.T)[:, 2], 0.0)
-    return float((block.stiffness[0] * gaps**2).sum() + ((state.kept**2).sum() / block.stiffness[1])) / 2.0
 
 
 def _histories(block: Block, history: TimeHistory, steps: Sequence[Step]) -> RecordedHistories:

@@ -197,8 +197,9 @@ FORGED: dict[str, tuple[Change, str]] = {
     [
         ("kinetic", -1.0, "kinetic energy"),
         ("potential", -1.0, "gains"),
-        ("base", 1.0, "work of the base"),
-        ("elastic", 0.0, "dissipate"),
+        ("base", 1.0, "energy base"),
+        ("friction", -1.0, "energy friction"),
+        ("elastic", 0.0, "energy elastic"),
     ],
 )
 def test_energies_that_sum_up_and_are_forged(rocks: Shaken, one: str, sign: float, words: str) -> None:
@@ -207,14 +208,27 @@ def test_energies_that_sum_up_and_are_forged(rocks: Shaken, one: str, sign: floa
     def change(result: TimeHistoryResult) -> TimeHistoryResult:
         rows = result.rows
         assert rows is not None
-        own = getattr(rows, one)
-        more = 0.3 * np.abs(rows.base).max() * (rows.times > 0.3) if sign == 1.0 else 0.1 * np.abs(rows.base)
-        rows = replace(rows, **{one: own + more}, contacts=rows.contacts + sign * more)
+        more = 0.1 * getattr(rows, one)
+        rows = replace(rows, **{one: 1.1 * getattr(rows, one)}, contacts=rows.contacts + sign * more)
         return replace(result, rows=rows)
 
     _, failures = history_failures(rocks.assembly, rocks.case, change(rocks.result))
     assert {failure.identifier for failure in failures} == {"time-energy"}
     assert any(words in failure for failure in failures)
+
+
+def test_the_base_does_no_more_in_a_step_than_what_moves_can_take(rocks: Shaken) -> None:
+    """Between frames as well."""
+
+    def change(result: TimeHistoryResult) -> TimeHistoryResult:
+        rows = result.rows
+        assert rows is not None
+        more = np.abs(rows.base).max() * ((rows.times > 0.101) & (rows.times < 0.103))  # of one row
+        rows = replace(rows, base=rows.base + more, contacts=rows.contacts + more)
+        return replace(result, rows=rows)
+
+    _, failures = history_failures(rocks.assembly, rocks.case, change(rocks.result))
+    assert any("the base does more in a step" in failure for failure in failures)
 
 
 @pytest.mark.parametrize("what", FORGED)
