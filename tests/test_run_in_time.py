@@ -43,6 +43,8 @@ def test_it_rocks(shaken: tuple[Results, Path]) -> None:
     assert 0.02 < found["peak"] < 0.1
     assert found["steps"] == 120
     assert found["balance"] < 1e-9
+    (motion,) = found["motions"]
+    assert motion["spectral_acceleration"] == pytest.approx(motion["peak_acceleration"], rel=0.05)  # it is stiff
     assert record["load_factor"] is None
     assert found["verdict"].startswith("rocks, peak ")
     assert found["points"][0]["peak"] == pytest.approx(2.0 * found["peak"], rel=0.02)

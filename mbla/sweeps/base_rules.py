@@ -16,14 +16,23 @@ from mbla.deck.deck import read_deck
 from mbla.deck.expressions import Parameters, is_expression
 from mbla.deck.fields import annotations_at
 from mbla.deck.parameter_keys import path_of_key, unit_of, value_at, vector_at
-from mbla.deck.suggestions import unknown
+from mbla.deck.suggestions import listed, unknown
 from mbla.deck.text.overrides import LABEL, RefusedError
 from mbla.deck.text.tree import key_text, shorten
 from mbla.errors import DeckError, Fault, Finding, KeyPath, Message, Place
-from mbla.sweeps.file.content import DIRECTIONS, Parameter, way_of
+from mbla.sweeps.file.content import DIRECTIONS, FALLS, Parameter, way_of
 from mbla.sweeps.file.rules import key_places
 from mbla.sweeps.plan import override_texts
-from mbla.sweeps.results import FACTORS, OWN_COLUMNS, STATUS, result_columns, result_fault, result_places
+from mbla.sweeps.results import (
+    FACTORS,
+    FALLEN,
+    IN_TIME,
+    OWN_COLUMNS,
+    STATUS,
+    result_columns,
+    result_fault,
+    result_places,
+)
 
 if TYPE_CHECKING:
     from mbla.sweeps.base import Base
@@ -164,6 +173,15 @@ def _fragility(base: Base) -> Iterator[Finding]:
             "stand from what no load brings down"
         )
         yield Finding("sweep-fragility", message, "results")
+    elif asked.limit is not None and all(column.path.startswith(IN_TIME) for column in chosen):
+        if missing := [path for path in (STATUS, FALLEN) if path not in results]:
+            message = (
+                f"must have {listed(missing, 'and')} too: what falls, or does not stand at rest, passes every limit"
+            )
+            yield Finding("sweep-fragility", message, "results")
+    elif asked.limit is not None and FALLS in asked.limit:
+        message = f"{shorten(asked.result)} is none of a structure in time, which falls: take a number"
+        yield Finding("sweep-fragility", message, "fragility", "limit", asked.limit.index(FALLS))
 
 
 # --- values -------------------------------------------------------------------------------------------------------

@@ -21,7 +21,8 @@ from mbla.sweeps.design.design import Design, design_json
 from mbla.sweeps.engine.engine import EngineOptions, check_options, outcomes_of
 from mbla.sweeps.file.content import FragilitySection
 from mbla.sweeps.file.read import Sweep
-from mbla.sweeps.fragility import fragility_csv, fragility_lines, fragility_of
+from mbla.sweeps.fragility import asked_of, fragility_csv, fragility_lines, fragility_of
+from mbla.sweeps.fragility_curve import curve_lines, fragility_curves
 from mbla.sweeps.identity import PointKeys, library_versions
 from mbla.sweeps.journal import SINGLE, JournalHeader, journal_name, journals_in, merged, open_journal
 from mbla.sweeps.plan import FAILED, MEGABYTE, Plan, PointOutcome, Task, as_named
@@ -151,9 +152,11 @@ def _fragility(asked: FragilitySection | None, table: SweepTable) -> StudyResult
     """Probabilities of a sweep that asks for them."""
     if asked is None:
         return StudyResult()
-    found = fragility_of(table, asked.result, asked.demand, asked.confidence)
-    texts = {FRAGILITY: fragility_csv(found, table)}
-    return StudyResult(record={"fragility": found}, texts=texts, lines=fragility_lines(found, table))
+    what = asked_of(asked, table)
+    found, curves = fragility_of(table, what), fragility_curves(table, what)
+    texts, record = {FRAGILITY: fragility_csv(found, table)}, {"fragility": found, "fragility_curves": curves}
+    lines = [*fragility_lines(found, table), *curve_lines(curves, table)]
+    return StudyResult(record=record, texts=texts, lines=lines)
 
 
 def run_sweep(prepared: Prepared, options: SweepOptions, report: Report | None = None) -> Finished:

@@ -14,7 +14,7 @@ from mbla.arrays import FloatArray
 from mbla.deck.units import Units
 from mbla.results.record.json_values import json_line
 from mbla.sweeps.design.design import Design, DesignDimension, DesignPoint, SweepColumn
-from mbla.sweeps.fragility import fragility_csv, fragility_lines, fragility_of, interval
+from mbla.sweeps.fragility import Asked, fragility_csv, fragility_lines, fragility_of, interval
 from mbla.sweeps.plan import DONE, FAILED, PointOutcome
 from mbla.sweeps.results import result_columns
 from mbla.sweeps.tables.sweep_table import SweepTable, sweep_table
@@ -54,6 +54,11 @@ def table_of(
     )
 
 
+def found_of(table: SweepTable, result: str, demands: Sequence[float], confidence: float) -> list[dict[str, Any]]:
+    """Of the random sample of a table."""
+    return fragility_of(table, Asked(result, tuple(demands), (), table.samples, table.sampling, "", confidence))
+
+
 def solved(factors: FloatArray | Sequence[float]) -> list[Found]:
     return [(DONE, "solved", float(factor)) for factor in factors]
 
@@ -76,7 +81,7 @@ def coverage(samples: Sequence[FloatArray], confidence: float) -> float:
 def test_the_probability_of_a_sliding_block() -> None:
     """P(mu < demand) of a lognormal friction; a large sample comes near, and its interval holds it."""
     factors = FRICTION.rvs(4000, random_state=np.random.default_rng(1))
-    (found,) = fragility_of(table_of([solved(factors)]), "load_factor", (DEMAND,), 0.99)
+    (found,) = found_of(table_of([solved(factors)]), "load_factor", (DEMAND,), 0.99)
     assert pytest.approx(norm.cdf((np.log(DEMAND / MEAN) + SPREAD**2 / 2) / SPREAD)) == EXACT
     (one,) = found["demands"]
     lower, upper = one["interval"]
@@ -114,19 +119,19 @@ MIXED: list[Found] = [
 
 
 def test_a_share_has_no_side_for_what_does_not_stand() -> None:
-    (found,) = fragility_of(table_of([MIXED], asked=RESULTS[1:]), "mechanism.moving_weight_share", (0.3,), 0.95)
+    (found,) = found_of(table_of([MIXED], asked=RESULTS[1:]), "mechanism.moving_weight_share", (0.3,), 0.95)
     assert (below_of(found), found["unknown"]) == ([1], 3)
 
 
 def test_what_does_not_stand_is_below_and_what_never_falls_above() -> None:
-    (found,) = fragility_of(table_of([MIXED[:4]]), "load_factor", (0.1, 0.2, 0.3, 9.0), 0.95)
+    (found,) = found_of(table_of([MIXED[:4]]), "load_factor", (0.1, 0.2, 0.3, 9.0), 0.95)
     assert below_of(found) == [1, 1, 2, 3]  # a load factor equal to the demand bears it
     assert found["unknown"] == 0
 
 
 def test_a_failed_point_is_counted_both_ways() -> None:
     table = table_of([MIXED])
-    (found,) = fragility_of(table, "load_factor", (0.3,), 0.95)
+    (found,) = found_of(table, "load_factor", (0.3,), 0.95)
     assert (below_of(found), found["unknown"], found["points"]) == ([2], 1, 5)
     assert found["demands"][0]["probability"] == [0.4, 0.6]
     ends = [binomtest(count, 5).proportion_ci(0.95, "exact") for count in (2, 3)]
@@ -141,7 +146,7 @@ def test_a_failed_point_is_counted_both_ways() -> None:
 
 def test_each_combination_of_what_is_not_sampled_stands_by_itself() -> None:
     table = table_of([solved([0.1, 0.2]), solved([0.3, 0.4])], "sobol", (0.25, 1 / 3))
-    found = fragility_of(table, "load_factor", (0.15, 0.35), 0.9)
+    found = found_of(table, "load_factor", (0.15, 0.35), 0.9)
     assert [one["at"] for one in found] == [{"t": 0.25}, {"t": 1 / 3}]
     assert list(map(below_of, found)) == [[1, 2], [0, 1]]
     json_line({"fragility": found})
@@ -161,5 +166,5 @@ def test_each_combination_of_what_is_not_sampled_stands_by_itself() -> None:
 
 def test_a_value_that_is_the_demand_but_for_rounding_bears_it() -> None:
     table = table_of([solved([0.3 * (1 - 1e-9), 0.3 * (1 - 1e-5)])])
-    (found,) = fragility_of(table, "load_factor", (0.3,), 0.95)
+    (found,) = found_of(table, "load_factor", (0.3,), 0.95)
     assert below_of(found) == [1]

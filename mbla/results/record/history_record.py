@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 
 from mbla.arrays import FloatArray
+from mbla.model.motion.spectrum import spectral_acceleration
 from mbla.model.motion.time_history import BaseMotion
 from mbla.results.history_figures import HistoryFigures, drift_of
 from mbla.results.listing.history_verdict import history_verdict
@@ -23,7 +25,7 @@ TIME_HISTORY = Object[Scene](
     *(quantity for quantity in RESULT.quantities if quantity.name != "seconds"),
     owner=lambda scene: None if followed(scene) is None else scene,
 )
-ENERGIES, POINT, MOTION = Object[StepRows](), Object["PointPeaks"](), Object[BaseMotion]()
+ENERGIES, POINT, MOTION = Object[StepRows](), Object["PointPeaks"](), Object["Shaking"]()
 
 
 @TIME_HISTORY.key()
@@ -111,20 +113,50 @@ for _name, _words in {
     _declare_energy(_name, _words)
 
 
+@dataclass(frozen=True)
+class Shaking:
+    """A motion of the base, and the first period of the structure at rest, s, nan where it is not known."""
+
+    motion: BaseMotion
+    period: float
+
+
 @TIME_HISTORY.key("a motion", inside=MOTION)
-def motions(scene: Scene) -> list[BaseMotion]:
+def motions(scene: Scene) -> list[Shaking]:
     """What moves the base."""
-    asked = scene.solved.load_case.time_history
-    return [] if asked is None else list(asked.motions)
+    asked, period = scene.solved.load_case.time_history, scene.solved.solution.further.time_history.period
+    return [] if asked is None else [Shaking(motion, period) for motion in asked.motions]
 
 
-MOTION.fields(
-    BaseMotion,
-    words=Field("in words"),
-    peak_acceleration=Field("greatest acceleration", unit="acceleration"),
-    peak_velocity=Field("greatest velocity", unit="speed"),
-    peak_displacement=Field("greatest displacement", unit="length"),
-)
+@MOTION.key(name="words")
+def motion_words(shaking: Shaking) -> str:
+    """In words."""
+    return shaking.motion.words
+
+
+@MOTION.key(unit="acceleration")
+def peak_acceleration(shaking: Shaking) -> float:
+    """Greatest acceleration."""
+    return shaking.motion.peak_acceleration
+
+
+@MOTION.key(unit="speed")
+def peak_velocity(shaking: Shaking) -> float:
+    """Greatest velocity."""
+    return shaking.motion.peak_velocity
+
+
+@MOTION.key(unit="length")
+def peak_displacement(shaking: Shaking) -> float:
+    """Greatest displacement."""
+    return shaking.motion.peak_displacement
+
+
+@MOTION.key(name="spectral_acceleration", unit="acceleration")
+def at_first_period(shaking: Shaking) -> float | None:
+    """With 5 % damping at the first period, of joints that stay closed at rest; null where that is not known."""
+    period = shaking.period
+    return spectral_acceleration(shaking.motion.signal, period) if math.isfinite(period) and period > 0.0 else None
 
 
 @dataclass(frozen=True)
@@ -164,14 +196,14 @@ def time_of_peak(point: PointPeaks) -> float:
     return float(point.found.times[int(point.sizes(point.found.displacements).argmax())])
 
 
-@POINT.key(unit="speed")
-def peak_velocity(point: PointPeaks) -> float:
+@POINT.key(name="peak_velocity", unit="speed")
+def peak_velocity_of_point(point: PointPeaks) -> float:
     """Greatest velocity relative to the base."""
     return float(point.sizes(point.found.velocities).max())
 
 
-@POINT.key(unit="acceleration")
-def peak_acceleration(point: PointPeaks) -> float:
+@POINT.key(name="peak_acceleration", unit="acceleration")
+def peak_acceleration_of_point(point: PointPeaks) -> float:
     """Greatest absolute acceleration."""
     return float(point.sizes(point.found.accelerations).max())
 

@@ -184,14 +184,39 @@ class SweepOutputSection(Section):
     hdf5: Switch = Field(False, description="the table as HDF5 too, along the axes of the design")
 
 
+SIDES = ("demand", "limit")
+"""of which a fragility has one"""
+FALLS = "falls"
+"""a limit that a structure in time passes where a block falls, however far it has moved"""
+Limit: TypeAlias = Annotated[Literal["falls"] | Number, Field(union_mode="left_to_right")]
+
+
 class FragilitySection(Section):
-    """Probability that a result lies below a demand, from a random design."""
+    """Probability that a result lies below a demand or passes a limit, from a random design or over records."""
 
     result: str = Field(
         "load_factor",
-        description="result column; without dilatancy `least_load_factor`, named in `results`, is that to design with",
+        description="result column; without dilatancy `least_load_factor`, named in `results`, is that to design with; "
+        "of structures in time `time_history.peak` and the like",
     )
-    demand: Annotated[list[Number], Field(min_length=1)] = Field(description="demands")
+    demand: Annotated[list[Number], Field(min_length=1)] | None = Field(
+        None, description="demands: the probability is that of results below them"
+    )
+    limit: Annotated[list[Limit], Field(min_length=1)] | None = Field(
+        None,
+        description="in place of demands limits: the probability is that of results that reach them, as a peak does; "
+        "`falls` stands for the fall of a block, with which a structure in time passes every limit",
+    )
+    sample: VariedName | None = Field(
+        None,
+        description="parameter whose values count as a sample, each of them alike, as a list of records does; default: "
+        "the random part of the design",
+    )
+    over: VariedName | None = Field(
+        None,
+        description="with limit: parameter of numbers above 0, as the scale of records, over which a lognormal curve "
+        "is fitted to the shares",
+    )
     confidence: Annotated[float, RealNumber("number", gt=0, lt=1)] = Field(0.95, description="of the interval")
 
 
@@ -226,7 +251,9 @@ class SweepContent(Section):
     output: SweepOutputSection = Field(
         default_factory=SweepOutputSection, description="what is written in addition to the table"
     )
-    fragility: FragilitySection | None = Field(None, description="probability of collapse below a demand")
+    fragility: FragilitySection | None = Field(
+        None, description="probability of collapse below a demand, or of passing a limit in time"
+    )
 
 
 # --- what a checked parameter says ------------------------------------------------------------------------------------

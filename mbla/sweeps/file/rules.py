@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from math import prod
 from typing import Any
 
@@ -239,16 +239,56 @@ def names_once(sweep: types.SweepContent) -> Iterator[Finding]:
                 yield Finding("duplicate-key", "is given twice", key, index)
 
 
+@rule(types.FragilitySection)
+def limits_and_demands(asked: types.FragilitySection) -> Iterator[Finding]:
+    """One of them, each value once; a curve is fitted to shares that grow, as those that pass a limit."""
+    yield from one_of(asked, types.SIDES)
+    if asked.over is not None and asked.limit is None:
+        yield Finding("key-of-another-choice", "applies with limit only", "over")
+    for key, values in (("demand", asked.demand or []), ("limit", asked.limit or [])):
+        for index, value in enumerate(values):
+            if value in values[:index]:
+                yield Finding("duplicate-key", "is given twice", key, index)
+
+
 @rule(types.SweepContent)
 def fragility(sweep: types.SweepContent) -> Iterator[Finding]:
-    """A probability needs points that are a random sample."""
-    if sweep.fragility is None:
+    """A probability needs points that are a random sample, or are said to be one."""
+    asked = sweep.fragility
+    if asked is None:
         return
-    random = [part for part in design_parts(sweep) if is_random(part, sweep)]
+    for key in ("sample", "over"):
+        name = getattr(asked, key)
+        if name is not None and name not in sweep.parameters:
+            words = unknown("parameter", name, sweep.parameters, "the sweep has")
+            yield Finding("sweep-fragility", words, "fragility", key)
+            return
+    parts = design_parts(sweep)
+    random = [part for part in parts if is_random(part, sweep)]
     message = ""
-    if not random:
+    if asked.sample is not None:
+        if random:
+            message = f"is no sample beside the random part of the design, which is one: leave {asked.sample} out here"
+            yield Finding("sweep-fragility", message, "fragility", "sample")
+    elif not random:
         message = f"needs a random design: {_samples()} in which every parameter is {listed(types.RANDOM)}"
+        yield Finding("sweep-fragility", f"{message}; or sample, a list of records", "fragility")
     elif len(random) > 1:
         message = "needs one random part of the design, not several: put their parameters into one"
-    if message:
         yield Finding("sweep-fragility", message, "fragility")
+    if asked.over is not None and not message:
+        yield from _over(asked.over, asked.sample, sweep, parts)
+
+
+def _over(over: str, sample: str | None, sweep: types.SweepContent, parts: Sequence[PartOfDesign]) -> Iterator[Finding]:
+    """It has numbers above 0, and other ones than the sample."""
+    (own,) = (part for part in parts if over in part.parameters)
+    together = own.kind in types.SAMPLED or (own.kind == "zip" and sample in own.parameters) or over == sample
+    way = types.way_of(sweep.parameters[over])
+    section = getattr(sweep.parameters[over], way)
+    values = section if way == "values" else [] if way in types.DIRECTIONS else [section.start, section.end]
+    if together:
+        words = f"changes with the sample: put {over} into a grid of its own, so that each value has all of the sample"
+        yield Finding("sweep-fragility", words, "fragility", "over")
+    elif not values or any(isinstance(each, bool | str | list) or not each > 0 for each in values):
+        yield Finding("sweep-fragility", f"{over} has values that are no numbers above 0", "fragility", "over")

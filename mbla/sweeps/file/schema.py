@@ -10,7 +10,7 @@ from typing import Any
 
 from mbla.deck.quantities import EXPRESSION_PATTERN, QUANTITY_PATTERN
 from mbla.deck.schema import generated_files, section_tables, tidy
-from mbla.sweeps.file.content import WAYS, SweepContent
+from mbla.sweeps.file.content import SIDES, WAYS, SweepContent
 from mbla.sweeps.file.parts import KINDS
 
 VALUE_TYPES = ["number", "string", "boolean", "array"]
@@ -21,7 +21,7 @@ def sweep_schema() -> dict[str, Any]:
     """JSON Schema (draft 2020-12) of a complete sweep file."""
     schema = SweepContent.model_json_schema(by_alias=True)
     definitions = {name: _without_expressions(tidy(each)) for name, each in schema.pop("$defs").items()}
-    for section, keys in (("Parameter", WAYS), ("DesignPart", KINDS)):
+    for section, keys in (("Parameter", WAYS), ("DesignPart", KINDS), ("FragilitySection", SIDES)):
         definitions[section]["oneOf"] = [{"required": [key]} for key in keys]
     definitions["Parameter"]["properties"]["values"]["items"] = {"type": VALUE_TYPES}
     return {

@@ -26,6 +26,7 @@ from mbla.results.record.objects import Key, json_of
 from mbla.results.record.scene import Values
 from mbla.sweeps.design.design import DesignDimension
 from mbla.sweeps.fragility import fragility_keys
+from mbla.sweeps.fragility_curve import curve_keys
 from mbla.sweeps.plan import DONE, FAILED, Plain
 from mbla.sweeps.results import OWN_COLUMNS
 from mbla.sweeps.tables.sweep_table import READ_CELL, SweepColumn, SweepTable, column_values
@@ -64,6 +65,7 @@ def sweep_json(
         },
         "columns": [asdict(column) for column in table.columns],
         "fragility": [],
+        "fragility_curves": [],
         "notices": [json_of(NOTICE, notice) for notice in notices],
         "time": {"total": number(seconds)},
         "files": [],
@@ -199,6 +201,7 @@ SWEEP_RECORD: tuple[Key, ...] = (
     Key("columns[].case", "string", "of results: load case; empty for values of the entire run"),
     Key("columns[].path", "string", "of results: key path in the JSON record of the run"),
     *fragility_keys("fragility"),
+    *curve_keys("fragility_curves"),
     Key("notices", "list", "remarks and warnings"),
     Key("notices[]", "object", "a remark"),
     Key("notices[].severity", "string", "notice or warning"),

@@ -8,7 +8,7 @@ from scipy.integrate import solve_ivp
 
 from mbla.model.motion.pulses import pulse_of
 from mbla.model.motion.signal import Signal
-from mbla.model.motion.spectrum import Intensity, response_spectrum
+from mbla.model.motion.spectrum import Intensity, response_spectrum, spectral_acceleration
 
 GRAVITY = 9.81
 
@@ -87,3 +87,10 @@ def test_figures_of_a_constant_acceleration() -> None:
 def test_arias_intensity_of_a_wave() -> None:
     intensity = Intensity(pulse_of("sine", 2.0), GRAVITY)
     assert intensity.arias == pytest.approx(np.pi / (2.0 * GRAVITY) * 1.0, rel=1e-5)
+
+
+@pytest.mark.parametrize("period", [0.02, 0.3, 2.0])
+def test_one_period_by_itself(period: float) -> None:
+    pulse = pulse_of("sine", 0.5)
+    own = spectral_acceleration(pulse, period)
+    assert own == pytest.approx(response_spectrum(pulse, np.array([period])).pseudo_acceleration[0], rel=1e-12)

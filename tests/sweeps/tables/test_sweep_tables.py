@@ -6,6 +6,7 @@ import csv
 import json
 import sys
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -17,7 +18,8 @@ import xarray
 from mbla.errors import FileError, Notice, UsageError
 from mbla.results.record.json_values import json_line
 from mbla.results.record.scene import Values
-from mbla.sweeps.fragility import fragility_csv, fragility_of
+from mbla.sweeps.fragility import Asked, fragility_csv, fragility_of
+from mbla.sweeps.fragility_curve import fragility_curves
 from mbla.sweeps.tables.sweep_json import SWEEP_RECORD, read_sweep_table, sweep_json
 from mbla.sweeps.tables.sweep_table import SweepTable, sweep_table
 from mbla.sweeps.tables.write_tables import FRAGILITY, FURTHER, StudyResult, refuse_tables, write_tables
@@ -145,7 +147,7 @@ def test_files_appear_together_and_nothing_is_overwritten_unasked(folder: Path, 
 
 
 def test_probabilities_stand_in_the_record_and_in_a_file_of_their_own(tmp_path: Path) -> None:
-    found = fragility_of(table(), "load_factor", (0.2,), 0.95)
+    found = fragility_of(table(), Asked("load_factor", (0.2,), (), table().samples, table().sampling))
     study = StudyResult(texts={FRAGILITY: fragility_csv(found, table())})
     told, _ = write_tables(tmp_path, record(fragility=found), table(), (), study)
     assert [each["at"] for each in told["fragility"]] == [{"mu": 0.5}, {"mu": 0.7}]
@@ -246,9 +248,10 @@ def paths(value: Any, path: str = "") -> Iterator[tuple[str, Any]]:
 
 def test_keys_and_types_of_the_record() -> None:
     full = table()
-    found = fragility_of(full, "load_factor", (0.2, 0.4), 0.95)
+    asked = Asked("load_factor", (0.2, 0.4), (0.3,), full.samples, full.sampling)
+    found, curves = fragility_of(full, asked), fragility_curves(full, replace(asked, samples="", over="mu"))
     made = sweep_json(full, **ABOUT, notices=(Notice("warning", "some", "words"),))
-    told = json.loads(json_line(made | {"fragility": found, "files": ["sweep.csv"]}))
+    told = json.loads(json_line(made | {"fragility": found, "fragility_curves": curves, "files": ["sweep.csv"]}))
     described = {key.path: key for key in SWEEP_RECORD}
     seen = set()
     for path, value in paths(told):
