@@ -23,7 +23,8 @@ class HistoryFigures:
     """Of a structure that was followed in time, from rest.
 
     peak, peak_time, peak_block : greatest displacement of the centre of a block relative to the base, m, when, which
-    residual, residual_uncertainty, residual_block : greatest displacement at the end, m, and how much it still varied
+    wander : by how much that still varied, m
+    residual, residual_uncertainty, residual_block : greatest displacement at the end, m, and its uncertainty
     falls, fall_time, fallen : first block that has fallen by half of its height, -1 for none, when, and how many have
     opening, opening_interface, slip, slip_interface : greatest of all interfaces, m, and of which; -1 without any
     lasted      : s
@@ -38,6 +39,7 @@ class HistoryFigures:
     peak_block: int
     residual: float
     residual_uncertainty: float
+    wander: float
     residual_block: int
     falls: int
     fall_time: float
@@ -76,7 +78,8 @@ def history_figures(found: TimeHistoryResult) -> HistoryFigures | None:
         peak_time=float(peaks.times[most]),
         peak_block=most,
         residual=float(peaks.residuals[stays]),
-        residual_uncertainty=float(peaks.wanders[stays]),
+        residual_uncertainty=_uncertainty(found, stays),
+        wander=float(peaks.wanders[stays]),
         residual_block=stays,
         falls=falls,
         fall_time=float(peaks.falling[falls]) if falls >= 0 else math.nan,
@@ -95,6 +98,18 @@ def history_figures(found: TimeHistoryResult) -> HistoryFigures | None:
         peak_of_half_step=math.nan if found.half is None else found.half.peak,
         half_step=change_by_half_step(found),
     )
+
+
+def _uncertainty(found: TimeHistoryResult, block: int) -> float:
+    """Of the displacement of a block at the end: by how much it still varied, half of the step changes it, joints give.
+
+    What half of the step changes is that of the block that has the greatest there.
+    """
+    peaks = found.peaks
+    assert peaks is not None
+    by_step = 0.0 if found.half is None else abs(found.half.residual - float(peaks.residuals[block]))
+    sag = 0.0 if math.isnan(found.sag) else found.sag
+    return max(float(peaks.wanders[block]), by_step, sag)
 
 
 def _greatest(values: FloatArray) -> tuple[float, int]:

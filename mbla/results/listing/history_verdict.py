@@ -64,7 +64,7 @@ def peak_words(model: Model, figures: HistoryFigures) -> str:
 
 
 def _rest_words(model: Model, figures: HistoryFigures) -> str:
-    length, rest, wander = model.units.length, figures.residual, figures.residual_uncertainty
+    length, rest, wander = model.units.length, figures.residual, figures.wander
     if wander > MOVING * figures.peak:
         return f"still moves at the end, about {rest:.2g} {length} (+- {wander:.1g})"
     if rest <= COMES_BACK * figures.peak:

@@ -68,7 +68,11 @@ _declare(
 )
 _declare("residual", "float", "greatest displacement at the end", lambda _, f: f.residual, "length")
 _declare(
-    "residual_uncertainty", "float", "by how much that still varied", lambda _, f: f.residual_uncertainty, "length"
+    "residual_uncertainty",
+    "float",
+    "by how much that still varied, half of the step changes it, or joints give, whichever is most",
+    lambda _, f: f.residual_uncertainty,
+    "length",
 )
 _declare("falls", "str", "block that falls first, by half of its height", lambda scene, f: _block(scene, f.falls))
 _declare("fall_time", "float", "when it had", lambda _, f: f.fall_time, "time")

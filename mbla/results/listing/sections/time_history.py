@@ -78,8 +78,7 @@ def _figures(assembly: Assembly, case: CaseResult, figures: HistoryFigures) -> l
     if not np.isnan(drift):
         rows.append(Fact("drift", f"{100.0 * drift:.3g} % of its height above the lowest support"))
     stays = f"{figures.residual:.3g} {length}, {name(figures.residual_block)}"
-    if figures.residual_uncertainty > 0.0:
-        stays += f" (+- {figures.residual_uncertainty:.1g}: it still moves)"
+    stays += f" (+- {figures.residual_uncertainty:.1g})"
     if figures.falls < 0:
         rows.append(Fact("residual displacement", stays))
     else:
