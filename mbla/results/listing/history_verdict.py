@@ -23,14 +23,18 @@ COMES_BACK = 0.5
 
 
 def history_verdict(model: Model, case: CaseResult) -> str:
-    """``rocks, peak 0.034 m at 2.1 s, comes back to 0.001 m; no block falls``; ``wall[3] falls at 3.4 s``."""
+    """``rocks, peak 0.034 m at 2.1 s, comes back to 0.001 m; no block falls``; ``wall[3] falls at 3.4 s``.
+
+    Without half of the step the error of its figures is not known, and it says so.
+    """
     found, asked = case.solution.further.time_history, case.load_case.time_history
     figures = history_figures(found)
     if case.status is Status.NO_EQUILIBRIUM:
         return case.load_case.question.no_equilibrium
     if figures is None or asked is None:
-        return "NOT VERIFIED: no state of rest is known, from which it could be followed"
+        return f"NOT VERIFIED: {case.solution.reason}"
     told = motion_words(model, figures, found.end)
+    told += "" if found.half is not None else "; not checked with half of the step"
     if case.status is Status.TIME_LIMIT:
         begin = "NOT SOLVED (the time ran out)" if found.end is HistoryEnd.LATE else "NOT SOLVED (stopped)"
         return f"{begin}: followed to {_seconds(figures.lasted)} of {_seconds(asked.duration)}; up to there it {told}"

@@ -181,7 +181,9 @@ def _steps(model: Model, asked: TimeHistory, found: TimeHistoryResult, figures: 
         damping = f"{asked.damping:.3g} asked, {found.damping:.3g} with that of the step"
         rows += [Fact("first period", f"{found.period:.4g} s"), Fact("damping at it", damping)]
     half = found.half
-    if half is not None:
+    if half is None:
+        rows.append(Fact("with half of the step", "not followed: check: true does it, and says how far figures differ"))
+    else:
         says = f"peak {half.peak:.3g} {units.length} at {half.time:.4g} s ({100.0 * figures.half_step:.2g} % off), "
         says += f"residual {half.residual:.2g} {units.length}"
         rows.append(Fact("with half of the step", says, () if half.end is found.end else (full_sentence(half.end),)))
