@@ -119,7 +119,7 @@ def _in_words(results: Results, case: CaseResult) -> list[Block]:
         soil_range_words(model, case),
         *said,
         curve_words(model, case) or no_curve_words(case),
-        modes_words(case) if case.load_case.has_load_factor else "",
+        modes_words(case) if case.load_case.question.group != "modes" else "",
         assessment_words(case),
     )
     return [Paragraph(text), *paragraphs(*further, detail=True)]

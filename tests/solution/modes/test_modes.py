@@ -167,3 +167,17 @@ def test_joints_are_next_to_rigid_by_default(tmp_path: Path) -> None:
     found = modes(tmp_path, tower(1, (0.5, 1.0, 1.0)), 1, "{friction: 0.7}")
     assert found.sag == pytest.approx(1e-6 * 0.5 ** (1 / 3), rel=1e-6)
     assert found.default == pytest.approx(DENSITY * 0.5 * 9.81 / (0.5 * 1e-6 * 0.5 ** (1 / 3)))
+
+
+def test_a_tie_that_is_stretched_holds_as_one_more_spring(tmp_path: Path) -> None:
+    """As stiff as a contact point, a quarter of the joint: along x and about y, in one mode of a stocky block."""
+    tie = "ties: [{{on: [b, ground], through: [[1, 0.5, 0.5], [3, 0.5, 0.5]], capacity: 1.e6{}}}]"
+    block = tower(1, (1.0, 1.0, 1.0))
+    free = modes(tmp_path, block, 6)
+    slack, held = (modes(tmp_path, block, 6, others=tie.format(force)) for force in ("", ", prestress: 1000"))
+    assert slack.periods == pytest.approx(free.periods, rel=1e-9)
+    mass, k_h, k_r = DENSITY, RATIO * STIFFNESS, STIFFNESS / 12
+    stiffness = np.array([[k_h + STIFFNESS / 4, -k_h / 2], [-k_h / 2, k_h / 4 + k_r]])
+    squares = np.linalg.eigvals(np.diag([1.0 / mass, 6.0 / mass]) @ stiffness)
+    mine = rates(held)[held.masses[:, 0] > 1e-6]
+    assert mine == pytest.approx(np.sqrt(np.sort(squares)), rel=1e-9)

@@ -10,6 +10,12 @@ from mbla.results.listing.text import counted, number
 from mbla.results.results import CaseResult
 from mbla.solution.modes.modes import Modes
 
+AT_POINTS = (
+    "Their joints bend by their whole surface. In the time history joints are springs at contact points, which bend "
+    "less: its own first period, given with it, is shorter."
+)
+"""of modes beside a time history"""
+
 SMALL = 5e-5
 """share of mass that is nothing as it is written"""
 
@@ -44,7 +50,8 @@ def modes_blocks(assembly: Assembly, case: CaseResult) -> list[Block]:
         )
     ]
     head = ["mode", "period [s]", "frequency [Hz]", "mass x", "mass y", "mass z", "sum x", "sum y", "sum z"]
-    return [Paragraph(says), *apart(table_of(head, rows, left=0, total=len(modes)))]
+    beside = [] if case.load_case.time_history is None else [Paragraph(AT_POINTS)]
+    return [Paragraph(says), *beside, *apart(table_of(head, rows, left=0, total=len(modes)))]
 
 
 def _stiffness(assembly: Assembly, modes: Modes) -> str:
