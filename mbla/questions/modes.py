@@ -37,6 +37,11 @@ class FirstPeriod(Question):
     no_sensitivity = NO_FACTOR
     kind = "s"
 
+    @property
+    def column(self) -> str:
+        """Of its own: the group of results has more than the figure."""
+        return "first_period"
+
     def value(self, load_factor: float) -> float:
         """None."""
         return math.nan

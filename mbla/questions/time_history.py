@@ -1,6 +1,6 @@
 """How far a structure moves in time: the greatest displacement of a block relative to the base.
 
-Nothing is multiplied: there is no load factor λ, whatever it is the figure is that of the time history.
+Nothing is multiplied: there is no load factor λ.
 """
 
 from __future__ import annotations
@@ -19,14 +19,8 @@ NO_FACTOR = "it moves in time, without a load factor"
 
 @dataclass(frozen=True)
 class PeakDisplacement(Question):
-    """The peak displacement, and between which it lies where more than one step was followed.
+    """The peak displacement, which the time history says and no load factor."""
 
-    peak, lower, upper : in the deck's unit of length; nan before it is known
-    """
-
-    peak: float = math.nan
-    lower: float = math.nan
-    upper: float = math.nan
     name: ClassVar[str] = "time_history"
     group: ClassVar[str] = "time_history"
     paths: ClassVar[tuple[str, str, str]] = ("time_history.peak", "time_history.lower", "time_history.upper")
@@ -43,13 +37,18 @@ class PeakDisplacement(Question):
     no_sensitivity = NO_FACTOR
     kind = "length"
 
+    @property
+    def column(self) -> str:
+        """Of its own: the group of results has more than the figure."""
+        return "peak_displacement"
+
     def value(self, load_factor: float) -> float:
-        """Whatever λ is."""
-        return self.peak
+        """None."""
+        return math.nan
 
     def bounds(self, static: float, kinematic: float, mechanism: FloatArray | None) -> tuple[float, float]:
-        """By the steps that were followed."""
-        return self.lower, self.upper
+        """None."""
+        return math.nan, math.nan
 
     def unit(self, units: Units) -> str:
         """Of length."""

@@ -11,7 +11,9 @@ import pytest
 from mbla.deck.content import Expectation
 from mbla.results.exit_status import differences
 from mbla.results.history_figures import balance_error, drift_of, history_figures
+from mbla.results.notebook.case import Case
 from mbla.results.outcome import answer_bounds, answer_of
+from mbla.solution.solution import Status
 from mbla.solution.time_history.step_rows import HistoryEnd
 from tests.results.rocking import peaks, rocking_case, rocks, step_rows
 from tests.results.synthetic import tower_results
@@ -39,6 +41,14 @@ def test_drift_is_over_the_height_above_the_lowest_support() -> None:
 def test_the_answer_is_the_peak_and_its_range() -> None:
     assert answer_of(CASE) == pytest.approx(0.0713, abs=1e-4)
     assert answer_bounds(CASE) == pytest.approx((answer_of(CASE), 1.01 * answer_of(CASE)))
+
+
+def test_for_python_users() -> None:
+    case = Case(RESULTS, CASE)
+    assert case.verified
+    assert case.time_history is not None
+    assert case.time_history.peak == answer_of(CASE)
+    assert Case(RESULTS, replace(CASE, status=Status.NOT_VERIFIED)).time_history is None
 
 
 def expected(case: Any = CASE, **wanted: Any) -> list[str]:

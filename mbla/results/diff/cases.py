@@ -27,7 +27,7 @@ from mbla.solution.solution import Status
 
 LEAST_TOLERANCE = 1e-6
 """Relative difference of answers that counts as zero: the accuracy to which solved programs agree."""
-ANSWERS = ("load_factor", "angle", "reaction_force", "reaction_moment")
+ANSWERS = ("load_factor", "angle", "reaction_force", "reaction_moment", "peak_displacement", "first_period")
 """figures of the record of which each load case has one"""
 FURTHER = (
     "associative_load_factor",
@@ -150,7 +150,8 @@ def _figures(first: Scene, second: Scene, tolerance: float) -> tuple[ComparedFig
     load_case = _case(first).load_case
     units, its = first.model.units, second.model.units
     force = NEWTONS[its.force] / NEWTONS[units.force]
-    factors: dict[UnitKind, float] = {"force": force, "moment": force * METRES[its.length] / METRES[units.length]}
+    length = METRES[its.length] / METRES[units.length]
+    factors: dict[UnitKind, float] = {"force": force, "moment": force * length, "length": length}
 
     def compared(name: str) -> ComparedFigure:
         unit = COLUMNS[name][0].unit

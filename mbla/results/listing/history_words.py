@@ -46,7 +46,8 @@ def history_words(results: Results) -> tuple[str, ...]:
         for path in results.paths_again
         if path.case == case.load_case.name and path.agrees
     ]
-    without = [case.load_case.name for case in results.cases if case.load_case.name not in followed]
+    asked = [case.load_case for case in results.cases if case.load_case.has_load_factor]
+    without = [load_case.name for load_case in asked if load_case.name not in followed]
     words += [f"no path of elastic joints to follow anew: {', '.join(without)}"] if without else []
     return tuple(words)
 

@@ -13,11 +13,12 @@ from mbla.model.model import Model
 from mbla.results.assessment import Assessment
 from mbla.results.collapse.collapse import Collapse, collapse_of, failure_of
 from mbla.results.collapse.thrust import Thrust, thrust_of
+from mbla.results.history_figures import HistoryFigures
 from mbla.results.listing.sections.assessment_words import code_verdict
 from mbla.results.listing.sections.mechanism_words import mechanism_summary
 from mbla.results.listing.verdict_words import reasons, verdict
 from mbla.results.notebook.display import View, case_picture
-from mbla.results.outcome import answer_of, associative_of, least_of, result_of, torsion_of
+from mbla.results.outcome import answer_of, associative_of, history_of, least_of, result_of, torsion_of
 from mbla.results.pictures.image import EncodedPicture
 from mbla.results.results import CaseResult, Results
 from mbla.solution.solution import Mechanics, Status
@@ -51,8 +52,9 @@ class Case:
 
     @property
     def verified(self) -> bool:
-        """Whether the load factor is a result that the verification confirms in full."""
-        return self.status is Status.SOLVED and result_of(self.record) is not None
+        """Whether the load factor, or the history in time, is a result that the verification confirms in full."""
+        found = result_of(self.record) or history_of(self.record)
+        return self.status is Status.SOLVED and found is not None
 
     @property
     def load_factor(self) -> float:
@@ -93,6 +95,14 @@ class Case:
     def reaction(self) -> float:
         """Least reaction of a settling support, force, or force times length; nan for other load cases."""
         return answer_of(self.record, "reaction")
+
+    @property
+    def time_history(self) -> HistoryFigures | None:
+        """What a structure does in time: peak, residual displacement, what falls; None where that is no result.
+
+        Its histories, states and energies are in ``record.solution.further.time_history``.
+        """
+        return history_of(self.record)
 
     @property
     def mechanics(self) -> Mechanics | None:

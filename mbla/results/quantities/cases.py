@@ -6,7 +6,8 @@ from collections.abc import Sequence
 
 from mbla.deck.sections.assessment import LIMIT_STATES
 from mbla.errors import Message
-from mbla.results.outcome import answer_bounds, answer_of, least_of, torsion_of
+from mbla.results.history_figures import drift_of
+from mbla.results.outcome import answer_bounds, answer_of, history_of, least_of, torsion_of
 from mbla.results.outcome import ultimate_displacement as displacement_at_the_end
 from mbla.results.quantities.answers import OWN
 from mbla.results.quantities.group import Field, Group
@@ -191,6 +192,39 @@ def reaction_force(case: CaseResult) -> float | None:
 def reaction_moment(case: CaseResult) -> float | None:
     """The same of a support that turns."""
     return _answer(case, "reaction_moment")
+
+
+@SHOWN.quantity("table", unit="length")
+def peak_displacement(case: CaseResult) -> float | None:
+    """Time history: greatest displacement of the centre of a block relative to the base."""
+    return _answer(case, "peak_displacement")
+
+
+@SCENE.quantity("table")
+def drift(scene: Scene) -> float | None:
+    """The same over the height of that centre above the lowest support."""
+    found = history_of(scene.solved)
+    return None if found is None else drift_of(scene.assembly, scene.solved.load_case, found)
+
+
+@SHOWN.quantity("table", unit="length")
+def residual_displacement(case: CaseResult) -> float | None:
+    """Time history: greatest displacement at the end."""
+    found = history_of(case)
+    return None if found is None else found.residual
+
+
+@SCENE.quantity("table")
+def first_to_fall(scene: Scene) -> str | None:
+    """Time history: block that falls first; empty where none does."""
+    found = history_of(scene.solved)
+    return None if found is None or found.falls < 0 else scene.model.blocks.name(found.falls)
+
+
+@SHOWN.quantity("table", unit="time")
+def first_period(case: CaseResult) -> float | None:
+    """Modes alone: the first period."""
+    return _answer(case, "first_period")
 
 
 def _answer(case: CaseResult, column: str) -> float | None:
