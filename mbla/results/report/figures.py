@@ -49,10 +49,12 @@ class ReportFigures:
 
 
 def case_figures(results: Results, case: CaseResult) -> ReportFigures:
-    """Mechanism, capacity curve of a pushover, and forces where there are any."""
+    """Mechanism, capacity curve of a pushover, diagrams of a structure in time, and forces where there are any."""
     name, solution = case.load_case.name, case.solution
     no_result = ", best iterate, no result" if best_iterate(case) is not None else ""
     captions = {"mechanism": f"Motion of load case {name}{no_result}"}
+    if solution.further.time_history.rows is not None:
+        captions["curve"] = f"Load case {name} in time: displacements, base, energies, response spectra"
     if solution.further.pushover.curve:
         captions["curve"] = f"Capacity curve of load case {name}: load over displacement"
     if solution.mechanics is not None or solution.lock is not None:
@@ -113,9 +115,12 @@ def _in_words(results: Results, case: CaseResult, kind: str) -> str:
         soils = "".join(f", {words}" for words in counted_soils(model))
         blocks = counted(int((~cells).sum()), "block")
         return f"The model of {blocks}, {free} of them free{soils}, with its supports and loads"
+    in_time = case.load_case.time_history is not None
     shown = {
         "mechanism": "The structure as it moves",
         "forces": "Resultants at the interfaces and lines of thrust",
-        "curve": "Load over the displacement of the control point in a pushover",
+        "curve": "Displacements, motion of the base, energies over time, and response spectra"
+        if in_time
+        else "Load over the displacement of the control point in a pushover",
     }
     return f"{shown[kind]}; load case {case.load_case.name}: {verdict(model, case)}"

@@ -13,6 +13,7 @@ from mbla.results.report.figures import case_figures, model_figures, series_figu
 from mbla.results.results import CaseResult, Results
 from mbla.results.series import series_of
 from mbla.solution.solution import Status
+from tests.results.rocking import rocking_case
 from tests.results.synthetic import full_results, standing_at, tower_results
 
 
@@ -115,3 +116,13 @@ def test_a_pushover_has_its_curve() -> None:
     pushed = next(case for case in results.cases if case.solution.further.pushover.curve)
     captions = [picture.caption.partition(" of load case")[0] for picture in case_figures(results, pushed).pictures]
     assert captions == ["Motion", "Capacity curve", "Contact forces"]
+
+
+@pytest.mark.usefixtures("asked")
+def test_a_structure_in_time_has_its_diagrams() -> None:
+    results = tower_results()
+    case = rocking_case(results.cases[0])
+    found = case_figures(replace(results, cases=(case,)), case)
+    captions = [picture.caption for picture in found.pictures]
+    assert captions[1] == "Load case shaken in time: displacements, base, energies, response spectra"
+    assert found.pictures[1].words.startswith("Displacements, motion of the base, energies over time")
