@@ -74,10 +74,10 @@ def _first(pattern: re.Pattern[str], line: str) -> str | None:
 
 
 def _points_and_step(place: str, points: str, step: str) -> tuple[int, float]:
-    count, length = (float(text.upper().replace("D", "E")) for text in (points, step))
-    if count != round(count) or count < 2:
+    count, length = (finite_number(text.upper().replace("D", "E"), False) for text in (points, step))
+    if count is None or count != round(count) or count < 2:
         raise refused(f"{place}: NPTS = {points}: must be a number of values, 2 or more")
-    if not length > 0.0:
+    if length is None or not length > 0.0:
         raise refused(f"{place}: DT = {step}: must be > 0, in seconds")
     return int(count), length
 

@@ -38,7 +38,7 @@ def without_line(signal: Signal) -> Signal:
 def high_passed(signal: Signal, corner: float) -> Signal:
     """The signal without what is below a frequency in Hz, at even steps.
 
-    Raises ValueError for a corner that its steps cannot show.
+    Raises ValueError for a corner that its steps cannot show, or that takes too many zeros beside it.
     """
     from scipy.signal import butter, sosfiltfilt
 
@@ -46,6 +46,9 @@ def high_passed(signal: Signal, corner: float) -> Signal:
     step = even.longest_step
     if not 2.0 * corner * step < 1.0:
         raise ValueError(f"must be < {0.5 / step:g} Hz, half of the samples in a second")
+    least = PERIODS / (2.0 * MOST_SAMPLES * step)
+    if corner < least:
+        raise ValueError(f"must be >= {least:.2g} Hz, for samples that are {step:.2g} s apart")
     sections = butter(ORDER, corner, "highpass", fs=1.0 / step, output="sos")
     zeros = np.zeros(int(np.ceil(PERIODS / (2.0 * corner * step))) + 1)
     filtered = sosfiltfilt(sections, np.concatenate([zeros, even.values, zeros]), padlen=0)

@@ -97,10 +97,10 @@ def _lines(text: str) -> list[_Line]:
     """Lines that are not empty."""
     found = []
     for number, line in enumerate(text.splitlines(), start=1):
-        plain = line.strip()
-        comment = plain.startswith(COMMENTS)
-        if plain.strip(",;\t "):
-            found.append(_Line(number, plain.lstrip("#% ") if comment else plain, comment))
+        comment = line.lstrip().startswith(COMMENTS)
+        text = line.strip().lstrip("".join(COMMENTS)).strip() if comment else line.strip()
+        if text.strip(",;\t "):
+            found.append(_Line(number, text, comment))
     return found
 
 

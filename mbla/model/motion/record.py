@@ -13,6 +13,9 @@ from mbla.errors import Message
 from mbla.model.tables import TableRefused
 from mbla.model.wording import counted
 
+LONGEST, LARGEST = 1e7, 1e30
+"""s, and in any unit, of what can be computed with: three months"""
+
 
 @dataclass(frozen=True)
 class Record:
@@ -61,6 +64,10 @@ def checked(path: Path, times: FloatArray, values: FloatArray, lines: Sequence[i
         raise refused(words + (f"; {len(falls) - 1} more do" if len(falls) > 1 else ""))
     if not times[-1] > times[0]:
         raise refused(f"{name}: every time is {times[0]:g}: name the column of times first")
+    if times[-1] - times[0] > LONGEST:
+        raise refused(f"{name}: lasts {times[-1] - times[0]:.2g} s: times are in seconds")
+    if np.abs(values).max() > LARGEST:
+        raise refused(f"{name}: its values reach {np.abs(values).max():.1e}, which no unit makes a motion or a force")
     if not values.any():
         raise refused(f"{name}: every value is 0: nothing moves; name the column of values")
     return Record(name, times - times[0], values, unit)

@@ -50,6 +50,7 @@ def test_points_and_step_on_two_lines(tmp_path: Path) -> None:
         ("NPTS= 4, DT= .005", "r.AT2:3: NPTS = 4, but 5 values follow, more than that"),
         ("NPTS= 6, DT= .005", "r.AT2:3: NPTS = 6, but 5 values follow, fewer than that"),
         ("NPTS= 1, DT= .005", "r.AT2:3: NPTS = 1: must be a number of values"),
+        ("NPTS= 1e999, DT= .005", "r.AT2:3: NPTS = 1e999: must be a number of values"),
         ("NPTS= 5, DT= -.005", "r.AT2:3: DT = -.005: must be > 0"),
         ("DISPLACEMENT NPTS= 5, DT= .005", "r.AT2: is a record of displacement"),
     ],

@@ -52,6 +52,8 @@ def test_high_pass_of_uneven_samples() -> None:
 def test_a_corner_that_samples_cannot_show() -> None:
     with pytest.raises(ValueError, match="must be < 50 Hz"):
         high_passed(Signal(TIMES, SHAKES), 50.0)
+    with pytest.raises(ValueError, match=r"must be >= 0.0003 Hz, for samples that are 0.01 s apart"):
+        high_passed(Signal(TIMES, SHAKES), 1e-4)
 
 
 def test_even_samples_stay() -> None:

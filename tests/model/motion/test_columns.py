@@ -78,6 +78,10 @@ def test_a_time_that_is_there_twice_is_a_jump(tmp_path: Path) -> None:
         ("\n# nothing\n", None, "record.csv: is empty"),
         ("0,1\n2,1\n1,1\n0,1\n", None, "record.csv:3: the time 1 comes after 2: times must not fall; 1 more do"),
         ("0,1\n", None, "record.csv: has 1 row with numbers"),
+        ("0,1\n1e8,2\n", None, "record.csv: lasts 1e+08 s: times are in seconds"),
+        ("0,1\n1,2e40\n", None, "record.csv: its values reach 2.0e+40"),
+        ("0,0\n1,0\n", None, "record.csv: every value is 0"),
+        ("# \n%,\n;;\n", None, "record.csv: is empty"),
     ],
 )
 def test_what_is_refused(tmp_path: Path, text: str, wanted: Sequence[str | int] | None, words: str) -> None:
