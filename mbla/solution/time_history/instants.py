@@ -60,7 +60,8 @@ class Instants:
         speed = self._speeds(state, there)
         acceleration = np.zeros_like(speed)
         if before is not None:
-            between = 0.5 * (before.length + state.length)
+            # of the middles of the last steps before both, which may be small ones
+            between = state.time - before.time + 0.5 * (before.length - state.length)
             acceleration = (speed - self._speeds(before, there)) / between
         forces = np.zeros((len(history.interfaces), 3)) if step is None else self._forces(step)
         apart = [self._largest(each) for each in self.corners.apart(there)]

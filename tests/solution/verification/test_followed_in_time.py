@@ -201,3 +201,19 @@ def test_blocks_in_each_other_without_contact_points(every_step: Followed) -> No
     assert deepest_corner(MovedSolids(solids, sunk, turns)) == pytest.approx(0.05 / solids.sizes.min(), rel=1e-3)
     below = shifts - np.array([0.0, 0.0, 0.1])
     assert deepest_corner(MovedSolids(solids, below, turns)) == pytest.approx(0.1 / 0.5, rel=1e-3)
+
+
+def test_accelerations_over_steps_in_the_place_of_one() -> None:
+    """Velocities are those in the middle of the last step before an instant, be it an eighth of one of the deck."""
+    of = followed(TWO.replace("0.6, d: 0.2", "0.6, d: 0.6").replace('"0.6 g"', '"0.9 g"'))
+    rows, histories = of[2].rows, of[2].histories
+    assert failures(of) == []
+    assert rows is not None
+    assert histories is not None
+    small = np.flatnonzero(np.diff(rows.small_steps) == 7)
+    small = small[(small > 1) & np.isin(small - 1, np.flatnonzero(np.diff(rows.small_steps) == 0))]
+    assert len(small)
+    step = 0.002
+    gain = np.diff(histories.velocities[:, 0], axis=0)[small] / (1.5 * step - step / 16.0)
+    relative = (histories.accelerations[:, 0] - histories.base[:, 2])[small + 1]
+    assert relative == pytest.approx(gain, abs=0.02 * np.abs(gain).max())
