@@ -14,7 +14,7 @@ def add(commands: Any) -> None:
     """The command and its options."""
     command = commands.add_parser(
         "sweep-plot",
-        help="pictures of a sweep: curves, maps, distributions (extra mbla[pictures])",
+        help="pictures of a sweep: curves, maps, distributions, fragility (extra mbla[pictures])",
         description="Pictures of the table of a sweep, sweep_KIND_RESULT.png and so on; those that suit the table "
         "unless kinds are named. Points without a verified value are marked as such. Earlier pictures of the same "
         "names are replaced.",
@@ -26,9 +26,9 @@ def add(commands: Any) -> None:
         "says which; or a folder (default: that of the sweep)"
     )
     command.add_argument("-o", "--output", type=place, metavar="FILE|DIR", help=words)
-    words = "curve, map, distribution, several with commas, or all that fit the table"
+    words = "curve, map, distribution, fragility, several with commas, or all that fit the table"
     command.add_argument("--kind", metavar="KIND", help=words)
-    words = "column, or key path for all load cases (default: load_factor)"
+    words = "column, or key path for all load cases (default: load_factor, or that of the fragility)"
     command.add_argument("--result", metavar="NAME", help=words)
     words = "parameter along the axis of curves and maps, or of the curves of a distribution"
     command.add_argument("--by", metavar="PARAMETER", help=words)

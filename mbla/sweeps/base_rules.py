@@ -12,14 +12,16 @@ from typing import TYPE_CHECKING, Any
 from pydantic import TypeAdapter, ValidationError
 
 from mbla.deck.content import DeckContent
-from mbla.deck.deck import read_deck
+from mbla.deck.deck import check_regular, read_deck
 from mbla.deck.expressions import Parameters, is_expression
 from mbla.deck.fields import annotations_at
 from mbla.deck.parameter_keys import path_of_key, unit_of, value_at, vector_at
+from mbla.deck.references import side_files
 from mbla.deck.suggestions import listed, unknown
+from mbla.deck.text.include import confined
 from mbla.deck.text.overrides import LABEL, RefusedError
 from mbla.deck.text.tree import key_text, shorten
-from mbla.errors import DeckError, Fault, Finding, KeyPath, Message, Place
+from mbla.errors import DeckError, Fault, FileError, Finding, KeyPath, Message, Place
 from mbla.sweeps.file.content import DIRECTIONS, FALLS, Parameter, way_of
 from mbla.sweeps.file.rules import key_places
 from mbla.sweeps.plan import override_texts
@@ -43,7 +45,7 @@ UNUSED = re.compile(r" (\w+)\.(\S+) is not used$")
 
 def base_faults(base: Base) -> list[Fault]:
     """Everything wrong with what a sweep does to its base deck, where each of its keys is known to exist."""
-    checks = (_nested_keys, _without_effect, _directions, _units, _results, _columns, _fragility)
+    checks = (_nested_keys, _without_effect, _directions, _units, _results, _columns, _fragility, _files)
     findings = [finding for check in checks for finding in check(base)]
     faults = [*_replaced(base), *(base.sweep.fault_at(*finding) for finding in findings)]
     return faults or list(_values(base))
@@ -182,6 +184,18 @@ def _fragility(base: Base) -> Iterator[Finding]:
     elif asked.limit is not None and FALLS in asked.limit:
         message = f"{shorten(asked.result)} is none of a structure in time, which falls: take a number"
         yield Finding("sweep-fragility", message, "fragility", "limit", asked.limit.index(FALLS))
+
+
+def _files(base: Base) -> Iterator[Finding]:
+    """Files that values name are there, records among them; whether they can be read is seen at their points."""
+    for name, place, _, path in _places(base):
+        values = base.sweep.content.parameters[name].values or ()
+        named = [(index, file) for index, value in enumerate(values) for _, file in side_files(value, path)]
+        for index, file in named:
+            try:
+                check_regular(confined(base.deck.path.resolve().parent, file))
+            except FileError as error:
+                yield Finding(error.message.identifier, error.message.words, *place[:2], "values", index)
 
 
 # --- values -------------------------------------------------------------------------------------------------------

@@ -4,19 +4,19 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Any, Protocol, TypeAlias
 
 from mbla.errors import FileError, UsageError
 from mbla.results.pictures.options import PictureOptions, format_of, is_single, page_options, parse_kinds
 from mbla.results.pictures.page import PictureFile, write_pictures
-from mbla.sweeps.pictures import curve, distribution, map
+from mbla.sweeps.pictures import curve, distribution, fragility, map
 from mbla.sweeps.pictures.view import ResultView, chosen_results, view_of
 from mbla.sweeps.tables.sweep_json import JSON, read_sweep_table
-from mbla.sweeps.tables.sweep_table import SweepTable
+from mbla.sweeps.tables.sweep_table import SweepColumn, SweepTable
 
 
 class PictureKind(Protocol):
@@ -29,7 +29,7 @@ class PictureKind(Protocol):
         """Write it; raises as ``open_diagrams`` does."""
 
 
-KINDS: dict[str, PictureKind] = {"curve": curve, "map": map, "distribution": distribution}
+KINDS: dict[str, PictureKind] = {"curve": curve, "map": map, "distribution": distribution, "fragility": fragility}
 """by name, in the order in which they are made"""
 USUAL: dict[str, Callable[[ResultView], bool]] = {
     "map": lambda view: min(len(axis.levels) for axis in view.axes[:2]) > 2,  # else it shows no more than curves
@@ -38,16 +38,38 @@ USUAL: dict[str, Callable[[ResultView], bool]] = {
 """which of those that fit a table are drawn of it without being asked for; kinds that are not here always are"""
 
 
-def demands_of(folder: Path) -> dict[str, tuple[float, ...]]:
-    """Demands on each result column by its name, ascending; none where the sweep asks for no fragility.
+Records: TypeAlias = tuple[Mapping[str, Any], ...]
+
+
+@dataclass(frozen=True)
+class Fragility:
+    """What sweep.json has of probabilities, as ``fragility_keys`` and ``curve_keys`` describe it."""
+
+    shares: Records = ()
+    curves: Records = ()
+
+    def demands(self, result: str) -> tuple[float, ...]:
+        """On a result column, ascending."""
+        own = (one for one in self.shares if one["result"] == result)
+        return tuple(sorted({float(each["demand"]) for one in own for each in one["demands"]}))
+
+    def of(self, result: str) -> tuple[Records, Records]:
+        """Shares and curves of a result column."""
+        both = (self.shares, self.curves)
+        shares, curves = (tuple(one for one in records if one["result"] == result) for records in both)
+        return shares, curves
+
+
+def fragility_in(folder: Path) -> Fragility:
+    """Probabilities of a sweep; none where it asks for none.
 
     Raises FileError where the record is invalid.
     """
-    found: dict[str, tuple[float, ...]] = {}
     try:
-        for one in json.loads((folder / JSON).read_bytes())["fragility"]:
-            demands = {float(each["demand"]) for each in one["demands"]}
-            found[str(one["result"])] = tuple(sorted({*found.get(str(one["result"]), ()), *demands}))
+        record = json.loads((folder / JSON).read_bytes())
+        found = Fragility(tuple(record["fragility"]), tuple(record.get("fragility_curves", ())))
+        for one in found.shares:
+            found.demands(str(one["result"]))
     except (KeyError, TypeError, ValueError, RecursionError) as error:
         raise FileError("sweep-table-damaged", f"{folder / JSON}: its fragility cannot be read") from error
     return found
@@ -65,7 +87,7 @@ class SweepPictures:
     every   : of the kinds those that the table does not fit are left out, rather than refused
     result  : name or key path of result columns; None for the load factors
     by      : parameter that comes first
-    demands : of result columns by their names, marked in distributions
+    known   : probabilities: demands are marked in distributions, limits are what fragility shows
     page    : size, dots per inch and format
     """
 
@@ -73,7 +95,7 @@ class SweepPictures:
     every: bool = False
     result: str | None = None
     by: str = ""
-    demands: Mapping[str, tuple[float, ...]] = field(default_factory=dict)
+    known: Fragility = field(default_factory=Fragility)
     page: PictureOptions = field(default_factory=PictureOptions)
 
 
@@ -86,7 +108,7 @@ def plot_sweep_files(path: Path, arguments: Any) -> list[Path]:
     every = arguments.kind is not None and arguments.kind.strip() == "all"
     page, folder = page_options(arguments), path if path.is_dir() else path.parent
     table = read_sweep_table(path)
-    chosen = SweepPictures(kinds, every, arguments.result, arguments.by or "", demands_of(folder), page)
+    chosen = SweepPictures(kinds, every, arguments.result, arguments.by or "", fragility_in(folder), page)
     return plot_sweep(table, arguments.output or folder, chosen)
 
 
@@ -114,10 +136,7 @@ def pictures_of(table: SweepTable, chosen: SweepPictures) -> list[PictureFile]:
     """The pictures to make, kind by kind of each result; raises as ``plot_sweep`` does."""
     if not len(table):
         raise UsageError("nothing-to-draw", "the sweep has no points to draw")
-    views = [
-        view_of(table, result, chosen.by, chosen.demands.get(result.name, ()))
-        for result in chosen_results(table, chosen.result)
-    ]
+    views = [_view(table, result, chosen) for result in _results(table, chosen)]
     if chosen.kinds:
         found = [(kind, view) for view in views for kind in chosen.kinds if _fits(kind, view, chosen.every)]
     else:
@@ -132,6 +151,20 @@ def pictures_of(table: SweepTable, chosen: SweepPictures) -> list[PictureFile]:
         raise UsageError("nothing-to-draw", f"no kind of picture suits {name} ({'; '.join(reasons)})")
     draw = {kind: partial(KINDS[kind].draw, options=chosen.page) for kind, _ in found}
     return [PictureFile(_name(kind, view), partial(draw[kind], view=view)) for kind, view in found]
+
+
+def _results(table: SweepTable, chosen: SweepPictures) -> Sequence[SweepColumn]:
+    """Those chosen, or those of which probabilities are asked where none is."""
+    asked = {one["result"] for one in chosen.known.curves}
+    if chosen.result is None and asked:
+        return [column for column in table.of_role("result") if column.name in asked]
+    return chosen_results(table, chosen.result)
+
+
+def _view(table: SweepTable, result: SweepColumn, chosen: SweepPictures) -> ResultView:
+    known = chosen.known
+    shares, curves = known.of(result.name)
+    return replace(view_of(table, result, chosen.by, known.demands(result.name)), shares=shares, curves=curves)
 
 
 def _name(kind: str, view: ResultView) -> str:

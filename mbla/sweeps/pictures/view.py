@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, TypeAlias
@@ -117,12 +117,15 @@ class ResultView:
 
     by      : parameter that the user put first; empty where the kind of picture is to choose
     demands : values of the result that are asked of the structure
+    shares, curves : what is known of limits of the result, as ``fragility_keys`` and ``curve_keys`` describe it
     """
 
     table: SweepTable
     answers: Answers
     by: str = ""
     demands: tuple[float, ...] = ()
+    shares: tuple[Mapping[str, Any], ...] = ()
+    curves: tuple[Mapping[str, Any], ...] = ()
 
     @cached_property
     def axes(self) -> tuple[ParameterAxis, ...]:

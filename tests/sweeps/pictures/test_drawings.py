@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 
 from mbla.sweeps.answers import Answer
+from mbla.sweeps.pictures.plot import Fragility
 from mbla.sweeps.pictures.sheet import MARKS
 from tests.sweeps.pictures.drawing import draw, lines_with, words
 from tests.sweeps.pictures.hand_made import FAILED, FALLEN, UNBOUNDED, Row, grid, sample
@@ -62,7 +63,8 @@ def test_cells_of_a_map_are_the_table(tmp_path: Path, figures: list[Any]) -> Non
 
 def test_demands_stand_in_the_distribution(tmp_path: Path, figures: list[Any]) -> None:
     table = sample({"mu": list(np.linspace(0, 1, 30))}, lambda mu: mu)
-    draw(table, tmp_path, "distribution", demands={"load_factor": (0.25,)})
+    known = Fragility(({"result": "load_factor", "demands": [{"demand": 0.25}]},))
+    draw(table, tmp_path, "distribution", known=known)
     for axes in figures[0].axes:
         assert [0.25, 0.25] in [list(line.get_xdata()) for line in axes.lines]
 

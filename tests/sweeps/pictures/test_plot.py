@@ -9,7 +9,7 @@ import pytest
 from mbla.cli import main
 from mbla.errors import UsageError
 from mbla.results.pictures.options import PictureOptions
-from mbla.sweeps.fragility import fragility_of
+from mbla.sweeps.fragility import Asked, fragility_of
 from mbla.sweeps.pictures.plot import SweepPictures, pictures_of
 from mbla.sweeps.tables.sweep_table import SweepTable
 from mbla.sweeps.tables.write_tables import StudyResult, write_tables
@@ -65,7 +65,7 @@ def test_what_does_not_fit_is_refused_with_the_reason(swept: SweepTable, changes
 
 @pytest.fixture
 def folder(tmp_path: Path) -> Path:
-    found = fragility_of(table(), "load_factor", (0.2,), 0.95)
+    found = fragility_of(table(), Asked("load_factor", (0.2,), (), table().samples, table().sampling))
     write_tables(tmp_path / "wall.out", record(fragility=found), table(), (), StudyResult())
     return tmp_path / "wall.out"
 
