@@ -188,6 +188,8 @@ class Touching:
 
     def renewed(self, found: Touching, pose: Pose) -> Touching:
         """What was found there, with the points of interfaces that were there before and have not slid."""
+        if not len(self.contacts):  # nothing touched
+            return found
         kept = self._same_interfaces(found, self.slips(self.points.at(pose)) > SLID)
         own, new = self.contacts.point_start, found.contacts.point_start
         counts = np.where(kept >= 0, np.diff(own)[kept], np.diff(new))

@@ -47,7 +47,8 @@ def _remembered(state: TimeState, there: MovedJoints, values: FloatArray) -> tup
     new = there.touching.before < 0
     forces = old.forces(values)
     found = np.zeros((len(there.contacts.points), 3))
-    share = np.where(new & takes, there.areas / old.areas[source], 1.0)
+    share, anew = np.ones(n_now), new & takes
+    share[anew] = there.areas[anew] / old.areas[source[anew]]
     found[:n_now][takes] = turned(state.at.placed, at.placed, forces[:n_before], takes, source) * share[takes, None]
     row = {tie: number for number, tie in enumerate(old.ties.tolist())}
     found[n_now:] = forces[n_before + np.array([row[tie] for tie in there.ties.tolist()], dtype=np.int64)]

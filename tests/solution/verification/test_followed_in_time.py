@@ -217,3 +217,19 @@ def test_accelerations_over_steps_in_the_place_of_one() -> None:
     gain = np.diff(histories.velocities[:, 0], axis=0)[small] / (1.5 * step - step / 16.0)
     relative = (histories.accelerations[:, 0] - histories.base[:, 2])[small + 1]
     assert relative == pytest.approx(gain, abs=0.02 * np.abs(gain).max())
+
+
+def test_a_block_that_flies_and_lands() -> None:
+    """Its base goes down faster than it falls: nothing touches for a while."""
+    top = "  - box: {group: top, material: stone, min: [0.05, 0.05, 0.5], max: [0.3, 0.45, 1.2]}\n"
+    text = TWO.replace(top, "").split("      record:")[0]
+    text = text.replace("pulse: sine", "pulse: half_sine").replace('"0.6 g"', '"3 g"')
+    of = followed(
+        text.replace("[0.8, 0.6, 0]", "[0.1, 0, -1]").replace("duration: 0.3", "duration: 0.1"), "parameters.d=0.5"
+    )
+    assert failures(of) == []
+    assert of[2].rows is not None
+    touching = of[2].rows.pressing > 0
+    assert touching[0]
+    assert touching[-1]
+    assert not touching.all()

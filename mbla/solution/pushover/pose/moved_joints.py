@@ -143,9 +143,9 @@ class MovedJoints:
         mean = float(areas.mean()) if len(areas) else float(structure.areas.mean())
         full = replace(full, facts=replace(full.facts, areas=np.append(areas, np.full(len(own), mean))))
         reduced = reduced_whole(scene_of(solids.model, solids.contacts, full), SWITCHES, solids.model.mirrors)
-        stiffness = structure.stiffness * float(full.facts.areas.mean()) * stiffness_through(reduced)
-        scaled = stiffness * full.scaling.live / full.scaling.force**2
-        length = float(scaled.mean())
+        stiffness = structure.stiffness * (float(full.facts.areas.mean()) if len(full.facts.areas) else mean)
+        scaled = stiffness * stiffness_through(reduced) * full.scaling.live / full.scaling.force**2
+        length = float(scaled.mean()) if len(scaled) else stiffness * full.scaling.live / full.scaling.force**2
         return MovedJoints(
             structure, fallen, touching, solids.model, solids.contacts, own, full, reduced, areas, scaled / length,
             length, ratio, pose
