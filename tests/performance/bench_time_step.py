@@ -94,15 +94,16 @@ def measure(scene: str, text: str) -> None:
         model = build_model(deck)
         assembly = build_assembly(deck, model)
     factorised, searched = Clock(Stiffness.factorized), Clock(MovedJoints.at_pose)
-    Stiffness.factorized = lambda *a, **k: factorised(*a, **k)  # type: ignore[method-assign]
-    MovedJoints.at_pose = staticmethod(lambda *a, **k: searched(*a, **k))  # type: ignore[assignment]
+    setattr(Stiffness, "factorized", lambda *a, **k: factorised(*a, **k))  # noqa: B010
+    setattr(MovedJoints, "at_pose", staticmethod(lambda *a, **k: searched(*a, **k)))  # noqa: B010
     after: list[float] = []
     settings = solver_settings(deck.analysis)
     result, _ = following.follow(
         assembly, deck.contacts, model.load_cases[0], settings, lambda progress: after.append(time.process_time())
     )
     seconds = (after[-1] - after[0]) * len(after) / (len(after) - 1)  # without the rest, which comes before them
-    Stiffness.factorized, MovedJoints.at_pose = factorised.function, staticmethod(searched.function)  # type: ignore
+    setattr(Stiffness, "factorized", factorised.function)  # noqa: B010
+    setattr(MovedJoints, "at_pose", staticmethod(searched.function))  # noqa: B010
     rows = result.rows
     assert rows is not None
     assert result.peaks is not None
