@@ -8,7 +8,10 @@ frame (n, t_1, t_2)::
 
 Springs at the corners alone would be up to three times too stiff in bending. Joints without friction and cohesion have
 no stiffness along. What slides at rest sticks in small vibrations about it. Ties that are not slack are as stiff as a
-contact point in the mean. What the weight of leaning blocks does to the stiffness is left out: it is a share sag/size.
+contact point in the mean.
+
+What weight does to the stiffness as blocks lean is left out: of a tower of height H and breadth B on joints that let it
+sag by s it takes the share 6 s H/B², next to nothing for stiff joints.
 """
 
 from __future__ import annotations

@@ -161,8 +161,9 @@ def _quadrature(rest: AtRest, modes: Modes) -> tuple[IntArray, FloatArray, Float
             holds = rest.pressed[own] > 0.0
             spots, shares = contacts.points[own][holds], contacts.point_areas[own][holds]
         else:
-            outline = outline if same_share(modes.pressed[row], 1.0) else _cut(rest, row, outline)
-            here, there = outline, np.roll(outline, -1, axis=0)
+            pieces = [outline] if same_share(modes.pressed[row], 1.0) else _cut(rest, row, outline)
+            here = np.concatenate([np.zeros((0, 2)), *pieces])
+            there = np.concatenate([np.zeros((0, 2)), *(np.roll(piece, -1, axis=0) for piece in pieces)])
             area = (here[:, 0] * there[:, 1] - there[:, 0] * here[:, 1]) / 2.0
             middles = np.concatenate([here / 2.0, (here + there) / 2.0, there / 2.0])
             spots, shares = centre + middles @ frame[1:], np.tile(area / 3.0, 3)
@@ -172,8 +173,8 @@ def _quadrature(rest: AtRest, modes: Modes) -> tuple[IntArray, FloatArray, Float
     return np.concatenate(interface), np.concatenate(places), np.concatenate(weights)
 
 
-def _cut(rest: AtRest, row: int, outline: FloatArray) -> FloatArray:
-    """The part of an outline that presses: where the plane through the forces of its corners lies above nothing."""
+def _cut(rest: AtRest, row: int, outline: FloatArray) -> list[FloatArray]:
+    """The parts of an outline that press: where the plane through the forces of its corners lies above nothing."""
     contacts = rest.contacts
     own = slice(int(contacts.point_start[row]), int(contacts.point_start[row]) + int(contacts.outline[row]))
     moved = contact_velocities(rest.model, contacts, rest.settlement)[own, 0]
@@ -181,13 +182,13 @@ def _cut(rest: AtRest, row: int, outline: FloatArray) -> FloatArray:
     height = law.tensile_strength / rest.stiffness[row, 0] - moved
     plane, *_ = np.linalg.lstsq(np.column_stack([outline, np.ones(len(outline))]), height, rcond=None)
     normal = plane[:2] / np.hypot(*plane[:2])
-    foot, size = -plane[2] / np.hypot(*plane[:2]) * normal, FAR * np.abs(outline).max()
+    foot = -plane[2] / np.hypot(*plane[:2]) * normal
+    size = float(np.linalg.norm(foot)) + FAR * float(np.abs(outline).max())
     along = np.array([-normal[1], normal[0]])
     half = [foot - size * along, foot + size * along, foot + size * (along + normal), foot + size * (normal - along)]
     part = shapely.Polygon(outline).intersection(shapely.Polygon(half))
     pieces = [piece for piece in shapely.get_parts(part) if piece.geom_type == "Polygon"]
-    corners = [np.array(shapely.geometry.polygon.orient(piece).exterior.coords)[:-1] for piece in pieces]
-    return corners[0] if len(corners) == 1 else np.concatenate(corners) if corners else np.zeros((0, 2))
+    return [np.array(shapely.geometry.polygon.orient(piece).exterior.coords)[:-1] for piece in pieces]
 
 
 # --- Masses ---------------------------------------------------------------------------------------------------------

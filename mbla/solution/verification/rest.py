@@ -20,6 +20,7 @@ from mbla.assembly.rigid_bodies import RigidBodies
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import LoadCase, Model
 from mbla.solution.modes.modes import Modes
+from mbla.solution.thresholds import SOLVED_RESIDUAL
 from mbla.solution.verification.statics import (
     contact_resultants,
     contact_velocities,
@@ -36,8 +37,8 @@ SAG = 1e-6
 SAME = 1e-9
 """Difference of figures that follow from model and deck, relative, that is rounding."""
 
-UNBALANCED = 1e-5
-"""Share of the dead load of a body that joints may leave without balance: the law is solved to 1e-6."""
+UNBALANCED = SOLVED_RESIDUAL
+"""Share of the dead load of a body that joints may leave without balance."""
 
 
 @dataclass(frozen=True)

@@ -17,7 +17,8 @@ from mbla.solution.modes.find import modes_of
 from mbla.solution.modes.modes import Modes
 from mbla.solution.verification.modes import checked_modes
 
-DECK = Path(__file__).parents[3] / "decks" / "tutorials" / "arch_on_piers.yaml"
+DECKS = Path(__file__).parents[3] / "decks"
+DECK = DECKS / "tutorials" / "arch_on_piers.yaml"
 
 
 @pytest.fixture(scope="module", name="arch")
@@ -66,3 +67,14 @@ def test_what_is_changed_is_found(
     checked, wrong = checked_modes(assembly, case, replace(modes, **{name: changed(modes)}))
     assert not checked.verified
     assert any(words in each for each in wrong)
+
+
+@pytest.mark.parametrize("name", ["structures/spiral_stair", "tutorials/dome", "benchmarks/closed_forms/tied_wall"])
+def test_modes_of_other_structures_are_verified(name: str) -> None:
+    """Interfaces that are not convex and press in part, modes of one frequency, ties."""
+    deck = read_deck(DECKS / f"{name}.yaml")
+    model = build_model(deck)
+    assembly, case = build_assembly(deck, model), model.load_cases[0]
+    checked, wrong = checked_modes(assembly, case, modes_of(assembly, case, 6))
+    assert wrong == ()
+    assert checked.residual < 1e-9
