@@ -64,7 +64,7 @@ def _legend(page: Page, axes: Any) -> None:
 def _displacements(
     sheet: Diagrams, axes: Any, scene: PictureScene, asked: TimeHistory, found: TimeHistoryResult
 ) -> None:
-    """Of the points that the deck names, along the axis that each moves most; without any of the block of the peak."""
+    """Of the points that the deck names, and of the block of the peak, along the axis that each moves most."""
     page, length = sheet.page, scene.model.units.length
     dress(page, axes, "time [s]", f"displacement relative to the base [{length}]")
     lines = list(_moved(scene, asked, found))
@@ -84,12 +84,13 @@ def _moved(
     scene: PictureScene, asked: TimeHistory, found: TimeHistoryResult
 ) -> Iterator[tuple[str, FloatArray, FloatArray]]:
     """Name, times and displacements (m, 3) of what is drawn."""
-    if found.histories is not None and asked.points:
+    if found.histories is not None:
         for row, point in enumerate(asked.points[:MOST_LINES]):
             yield point.name, found.histories.times, found.histories.displacements[:, row]
-    elif found.frames is not None and found.peaks is not None:
+    if found.frames is not None and found.peaks is not None:
         block, frames = found.peaks.block, found.frames
-        yield scene.model.blocks.name(block), frames.times, frames.shifts[:, block] - frames.shifts[0, block]
+        if block not in [point.block for point in asked.points[:MOST_LINES]]:
+            yield scene.model.blocks.name(block), frames.times, frames.shifts[:, block] - frames.shifts[0, block]
 
 
 def _accelerations(sheet: Diagrams, axes: Any, scene: PictureScene, asked: TimeHistory) -> None:
