@@ -164,3 +164,15 @@ def test_half_of_the_step_is_confirmed_by_following_it_anew_alone(tmp_path: Path
 
     _, said = said_of(tmp_path, forged(results, change), anew=True)
     assert "quake: followed anew, the structure in time comes to others: what half of the step comes to" in said
+
+
+def test_a_history_that_the_time_limit_cut_off(tmp_path: Path) -> None:
+    """What it has is verified, why it ends not; followed anew as far, it comes to the same."""
+    limit, long = "analysis: {time_limit: 4}\n", "load_cases.quake.time_history.duration=60"
+    results = run_of(tmp_path, limit, long)
+    (case,) = results.cases
+    assert case.solution.further.time_history.end is HistoryEnd.LATE
+    found, said = said_of(tmp_path, results)
+    assert said == "quake: why the time history ends is not verified; the file says: the time limit was reached"
+    assert found.cases[0].status is Status.TIME_LIMIT
+    assert said_of(tmp_path, results, anew=True)[1] == ""

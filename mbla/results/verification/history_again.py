@@ -51,7 +51,7 @@ def _others(own: TimeHistoryResult, again: TimeHistoryResult, *, cut: bool) -> I
         if not _same(own.peaks.peak, again.peaks.peak):
             yield f"the peak ({again.peaks.peak:.6g})"
         one, other = (float(each.residuals.max(initial=0.0)) for each in (own.peaks, again.peaks))
-        if not abs(one - other) <= ALLOWED * max(own.peaks.peak, again.peaks.peak):
+        if not cut and not abs(one - other) <= ALLOWED * max(own.peaks.peak, again.peaks.peak):
             yield f"the residual displacement ({other:.6g})"
     if not cut and not _same_half(own.half, again.half):
         yield "what half of the step comes to"
