@@ -21,15 +21,14 @@ from tests.decks.folder import PATHS, deck_of
 
 UNUSED: dict[str, str] = {
     "AnalysisSection": "gap max_iterations reductions residual search standing time_limit tolerance",
-    "Expectation": "end falls peak peak_time period residual",
+    "Expectation": "end peak_time residual",
     "Fill": "dilatancy",
     "FindSection": "first",
     "ForceHistorySection": "at direction file on unit",
-    "LoadCaseSection": "time_history",
     "MeshItem": "weld",
-    "MotionSection": "amplitude baseline corner direction directions duration file pulse unit",
+    "MotionSection": "amplitude corner directions duration pulse",
     "OutputSection": "plots positions",
-    "OverTime": "columns interval scale start",
+    "OverTime": "columns interval start",
     "PushoverSection": "position",
     "PublishedScheme": "averaging max_programs",
     "RecordSection": "every interfaces points",

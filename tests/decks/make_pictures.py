@@ -261,6 +261,7 @@ SWEEPS = (
     SweepPicture("rubble_wall", ("--kind", "distribution")),
     SweepPicture("dome_workmanship", ("--kind", "distribution")),
     SweepPicture("prestwood", ("--kind", "curve")),
+    SweepPicture("block_records", ("--kind", "fragility")),
 )
 
 

@@ -23,6 +23,8 @@ from mbla.sweeps.pictures.view import MOST_PANELS, ResultView, value_words
 
 SMOOTH = 200
 """points of a curve"""
+BESIDE = 0.006
+"""of the width of a diagram, by which marks of limits stand beside each other"""
 
 
 @dataclass(frozen=True)
@@ -87,7 +89,9 @@ def draw(path: Path, view: ResultView, options: PictureOptions) -> None:
             title = ", ".join(f"{name} {value_words(value)}" for name, value in at.items())
             dress(sheet.page, axes, over.header, "share", title)
             for each in (each for each in found if each.at == at):
-                _draw(axes, each, _style(sheet.page, limits.index(each.limit), limits))
+                row = limits.index(each.limit)
+                beside = BESIDE * (row - 0.5 * (len(limits) - 1)) * float(np.ptp(each.x))
+                _draw(axes, each, beside, _style(sheet.page, row, limits))
             axes.set_ylim(-0.02, 1.02)
             axes.label_outer()
 
@@ -96,11 +100,13 @@ def _style(page: Page, row: int, limits: Sequence[str]) -> dict[str, Any]:
     return line_style(page, row, len(limits))
 
 
-def _draw(axes: Any, each: Shares, style: Mapping[str, Any]) -> None:
-    """Shares as marks with their intervals, and the curve from the least to the greatest value."""
+def _draw(axes: Any, each: Shares, beside: float, style: Mapping[str, Any]) -> None:
+    """Shares as marks with their intervals, some way beside their place, and the curve from the least value on."""
     bars = np.array([each.share - each.low, each.high - each.share])
     marks = dict(style) | {"linestyle": "none"}
-    axes.errorbar(each.x, each.share, yerr=np.maximum(bars, 0.0), capsize=3.0, elinewidth=0.8, zorder=3, **marks)
+    axes.errorbar(
+        each.x + beside, each.share, yerr=np.maximum(bars, 0.0), capsize=3.0, elinewidth=0.8, zorder=3, **marks
+    )
     if np.isfinite(each.median):
         x = np.linspace(each.x[0], each.x[-1], SMOOTH)
         line = dict(style) | {"marker": ""}
