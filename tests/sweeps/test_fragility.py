@@ -129,6 +129,13 @@ def test_what_does_not_stand_is_below_and_what_never_falls_above() -> None:
     assert found["unknown"] == 0
 
 
+def test_what_never_falls_reaches_every_limit() -> None:
+    table = table_of([MIXED])
+    (found,) = fragility_of(table, Asked("load_factor", (), (0.2, 0.3, 9.0), table.samples, table.sampling))
+    assert [one["passing"] for one in found["limits"]] == [3, 2, 1]
+    assert (found["unknown"], found["demands"], found["sampling"]) == (1, [], "random")
+
+
 def test_a_failed_point_is_counted_both_ways() -> None:
     table = table_of([MIXED])
     (found,) = found_of(table, "load_factor", (0.3,), 0.95)
