@@ -15,8 +15,8 @@ shear, beside joints of 1e10 Pa/m with the same share of area a point. There the
 seconds before the pulse; of mbla the gravity state comes first. *usual*: as elastic, with the shear stiffness that mbla
 has by default, 0.4 of the normal one; LMGC90 has none like it.
 
-A row: peak, the greatest displacement along x relative to the base, its time from the start of the pulse, the greatest
-displacement the other way, and that at the end.
+A row: peak, the greatest displacement along x, or y, relative to the base, its time from the start of the pulse, the
+greatest displacement the other way, and that at the end.
 """
 
 from __future__ import annotations
@@ -35,6 +35,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
 from mbla.assembly import build_assembly
+from mbla.deck import Deck, read_deck_text
 from mbla.model import Model, build_model
 from mbla.solution.settings import solver_settings
 from mbla.solution.time_history.follow import follow
@@ -69,7 +70,7 @@ class History:
     """Displacements of points in time, and what they took.
 
     times         : (n_steps,) s, from the start of the pulse
-    displacements : (n_steps, n_points) m, along x, relative to the base and to where points were then
+    displacements : (n_steps, n_points) m, of each along its axis, relative to the base and to where it was then
     seconds       : of the processor
     """
 
@@ -84,9 +85,14 @@ def rows_of(model: Model, group: str) -> IntArray:
     return np.array([row for row, name in enumerate(model.blocks.groups) if name == group])
 
 
+def deck_of(text: str) -> Deck:
+    """Read as a file."""
+    return read_deck_text(text, Path("scene.yaml"), ())
+
+
 def question_for(scene: Scene, run: Run) -> dict[str, object]:
     """What ``lmgc90_run.py`` reads."""
-    model = build_model(scene.deck())
+    model = build_model(deck_of(scene.text()))
     blocks, solids = model.blocks, []
     for block in range(len(blocks)):
         corners = slice(blocks.vertex_start[block], blocks.vertex_start[block + 1])
@@ -105,13 +111,19 @@ def question_for(scene: Scene, run: Run) -> dict[str, object]:
         "density": scene.density,
         "held": rows_of(model, scene.held).tolist(),
         "times": times.tolist(),
-        "velocity": scene.pulse.velocity(times - before).tolist(),
+        "velocities": scene.pulse.velocities(times - before).T.tolist(),
         "law": law,
         "coefficients": coefficients,
         "step": run.step,
         "steps": len(times) - 2,
         "points": [[int(rows_of(model, point.group)[point.index]), point.place] for point in scene.points.values()],
     }
+
+
+def along_axes(scene: Scene, displacements: FloatArray) -> FloatArray:
+    """Of points (n_steps, n_points, 3), each along its own axis, (n_steps, n_points)."""
+    axes = [point.axis for point in scene.points.values()]
+    return np.asarray(displacements[:, range(len(axes)), axes])
 
 
 def by_lmgc90(python: Path, scene: Scene, run: Run) -> History:
@@ -124,15 +136,16 @@ def by_lmgc90(python: Path, scene: Scene, run: Run) -> History:
         subprocess.run(words, input=question, text=True, check=True, stdout=subprocess.DEVNULL)
         answer = json.loads(path.read_text(encoding="utf-8"))
     before = round(SETTLING / run.step) if run.joints == ELASTIC else 0
-    along = np.vstack([np.zeros(len(scene.points)), np.array(answer["displacements"])[:, :, 0]])
-    along = along[before:] - along[before]
+    moved = along_axes(scene, np.array(answer["displacements"]))
+    along = np.vstack([np.zeros(len(scene.points)), moved])[before:]
+    along = along - along[0]
     times = np.arange(len(along)) * np.float64(run.step)
     return History(times, along, answer["seconds"], answer["versions"])
 
 
 def by_mbla(scene: Scene, run: Run) -> History:
     """One run in this process; from rest under the dead load."""
-    deck = scene.deck(*JOINTS[run.joints], run.step)
+    deck = deck_of(scene.text(*JOINTS[run.joints], run.step))
     model = build_model(deck)
     assembly, started = build_assembly(deck, model), time.process_time()
     result, _ = follow(assembly, deck.contacts, model.load_cases[0], solver_settings(deck.analysis))
@@ -141,7 +154,7 @@ def by_mbla(scene: Scene, run: Run) -> History:
     assert rows is not None
     each = rows.factorisations[-1] / (len(rows) - 1)
     notes = f"{each:.1f} factorisations a step, {rows.halved[-1]} halved, {rows.missed[-1]} missed"
-    return History(found.times, found.displacements[:, :, 0], seconds, notes)
+    return History(found.times, along_axes(scene, found.displacements), seconds, notes)
 
 
 def tell(program: str, name: str, run: Run, found: History) -> None:
@@ -192,7 +205,8 @@ def table(rows: Sequence[Row]) -> Iterator[str]:
         for found in (oracle, own):
             cells += [", ".join(row["peak_mm"] for row in found), found[-1]["peak_s"], found[-1]["seconds"]]
         cells.insert(6, f"{100.0 * off:+.1f} %")
-        cells += [f"{float(oracle[-1][what]):.1f}; {float(own[-1][what]):.1f}" for what in ("back_mm", "end_mm")]
+        for what in ("back_mm", "end_mm"):
+            cells.append("; ".join(f"{round(float(found[-1][what]), 1) + 0.0:.1f}" for found in (oracle, own)))
         yield f"| {' | '.join(cells)} |"
     for scene, point in dict.fromkeys((scene, point) for scene, point, _ in cases):
         first = (scene, point, RIGID, LMGC90, steps[1])

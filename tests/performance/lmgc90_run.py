@@ -9,7 +9,7 @@ QUESTION and ANSWER are JSON; LMGC90 writes on standard output. The question:
 blocks   : [{vertices, faces}] as ``Solver.geometry_from_v_f`` takes them, m
 density  : kg/m³, all or one a block
 held     : blocks of the base, whose velocities are given
-times    : s, and ``velocity``, of the base along x, m/s; linear between them
+times    : s, and ``velocities``, of the base, m/s, along x, y, z in turn; linear between them
 law      : name in LMGC90, and ``coefficients``: of IQS_CLB the friction, of ELASTIC_REPELL_CLB stiffness of a contact
            point, N/m, and friction
 step     : s, and ``steps``, their number
@@ -19,8 +19,8 @@ The answer: ``displacements`` (steps, points, 3), m, relative to the base, ``con
 ``seconds`` of the processor for the steps, and ``versions``.
 
 What the package fixes: integration with θ = 1/2, Gauss–Seidel with relaxation 0.1, tolerance 1.666e-4 on the quadratic
-norm over 16 (``QM/16``), at most 500 × 50 sweeps; contact points at corners (Cundall's detection), searched each step
-within 1e-3 m.
+norm over 16 (``QM/16``), at most 500 × 50 sweeps; contact points at corners of the common face (detection ``STO``),
+searched in each step within 1e-3 m.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ from typing import Any
 import numpy as np
 from compas_lmgc90.solver import Solver
 
-COMPONENTS = ("Vx", "Vy", "Vz", "Rx", "Ry", "Rz")
+COMPONENTS, ROTATIONS = ("Vx", "Vy", "Vz"), ("Rx", "Ry", "Rz")
 THETA = 0.5
 
 
@@ -44,9 +44,10 @@ def prepared(question: dict[str, Any]) -> Solver:
     solver = Solver(dt=question["step"], theta=THETA)
     solver.geometry_from_v_f(question["blocks"], density=question["density"])
     for block in question["held"]:
-        for component in COMPONENTS[1:]:
+        for component, velocities in zip(COMPONENTS, question["velocities"], strict=True):
+            solver.apply_velocity(block, component, np.array([question["times"], velocities]))
+        for component in ROTATIONS:
             solver.apply_velocity(block, component, 0.0)
-        solver.apply_velocity(block, "Vx", np.array([question["times"], question["velocity"]]))
     solver.contact_law(question["law"], question["coefficients"])
     solver.preprocess()
     return solver

@@ -4,12 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from pathlib import Path
 
 import numpy as np
 
 from mbla.arrays import FloatArray
-from mbla.deck import Deck, read_deck_text
 
 GRAVITY = 9.81
 """m/s², of LMGC90; standard gravity is 0.03 % less"""
@@ -18,23 +16,30 @@ STIFF, SOFT = 1e12, 1e10
 STEEP_RATIO = 100.0
 """shear stiffness over normal stiffness that stands for the rigid shear of elastic joints of LMGC90"""
 CASE = "pulse"
+ALONG_X = (1.0, 0.0, 0.0)
 
 
 @dataclass(frozen=True)
 class Pulse:
-    """Acceleration of the base along x.
+    """Acceleration of the base.
 
     kind      : ``half_sine``, or ``dejong``: ``amplitude`` for ``duration``, minus half of it for twice as long
     amplitude : m/s²
     duration  : s
+    direction : a unit vector
     """
 
     kind: str
     amplitude: float
     duration: float
+    direction: tuple[float, float, float] = ALONG_X
 
-    def velocity(self, times: FloatArray) -> FloatArray:
-        """Of the base at times, m/s, by integration in closed form."""
+    def velocities(self, times: FloatArray) -> FloatArray:
+        """Of the base at times (n,), (n, 3) m/s."""
+        return np.asarray(self._speeds(times)[:, None] * np.array(self.direction))
+
+    def _speeds(self, times: FloatArray) -> FloatArray:
+        """By integration in closed form."""
         first = np.clip(times, 0.0, self.duration)
         if self.kind == "half_sine":
             w = np.pi / self.duration
@@ -45,11 +50,12 @@ class Pulse:
 
 @dataclass(frozen=True)
 class Point:
-    """A point of a block whose displacement along x, relative to the base, is followed; its place as built, m."""
+    """A point of a block whose displacement along an axis, relative to the base, is followed; its place as built, m."""
 
     group: str
     index: int
     place: tuple[float, float, float]
+    axis: int = 0
 
 
 @dataclass(frozen=True)
@@ -74,8 +80,8 @@ class Scene:
     area: float | None = None
     base_area: float | None = None
 
-    def deck(self, stiffness: float = STIFF, ratio: float = 0.4, step: float = 1e-3) -> Deck:
-        """For mbla.
+    def text(self, stiffness: float = STIFF, ratio: float = 0.4, step: float = 1e-3) -> str:
+        """The deck for mbla.
 
         stiffness : normal stiffness of joints, Pa/m; with the base less where interfaces are greater
         ratio     : shear stiffness over it
@@ -93,9 +99,8 @@ class Scene:
             f"{name}: {{on: {{group: {point.group}, index: {point.index}}}, at: {list(point.place)}}}"
             for name, point in self.points.items()
         )
-        size = f"amplitude: {abs(self.pulse.amplitude)!r} m/s2, duration: {self.pulse.duration!r}"
-        direction = "x" if self.pulse.amplitude > 0.0 else "-x"
-        text = f"""mbla: 1
+        size = f"amplitude: {self.pulse.amplitude!r} m/s2, duration: {self.pulse.duration!r}"
+        return f"""mbla: 1
 title: Scene for comparison with LMGC90
 materials: {{stone: {{density: {self.density!r}}}}}
 joints: {{dry: {dry}{foot}}}
@@ -105,12 +110,11 @@ supports: [{{blocks: {self.held}}}]
 load_cases:
   {CASE}:
     time_history:
-      motion: {{pulse: {self.pulse.kind}, {size}, direction: {direction}}}
+      motion: {{pulse: {self.pulse.kind}, {size}, direction: {list(self.pulse.direction)}}}
       step: {step!r}
       duration: {self.duration!r}
       record: {{points: {{{points}}}}}
 """
-        return read_deck_text(text, Path("scene.yaml"), ())
 
 
 def box(group: str, least: tuple[float, ...], greatest: tuple[float, ...]) -> str:
@@ -138,7 +142,7 @@ def block() -> Scene:
     """A block .2 × .3 × 1 m that rocks; .49 g would overturn it. Its upper right edge."""
     lines = FLOOR + box("block", (-0.1, -0.15, 0.0), (0.1, 0.15, 1.0))
     points = {"top": Point("block", 0, (0.1, 0.0, 1.0))}
-    return Scene(lines, "base", points, Pulse("half_sine", 0.35 * GRAVITY, 0.25), 5.0, 0.7, area=0.06)
+    return Scene(lines, "base", points, Pulse("half_sine", 0.35 * GRAVITY, 0.25), 3.0, 0.7, area=0.06)
 
 
 def arch() -> Scene:
@@ -170,7 +174,7 @@ def stack() -> Scene:
         "wedge": Point("wedge", 0, (0.0, 0.0, 0.2)),
         "block": Point("block", 0, (float(place[0]), 0.0, float(place[1]))),
     }
-    return Scene(lines, "base", points, Pulse("half_sine", -0.5 * GRAVITY, 0.3), 1.2, 0.3)
+    return Scene(lines, "base", points, Pulse("half_sine", 0.5 * GRAVITY, 0.3, (-1.0, 0.0, 0.0)), 1.2, 0.3)
 
 
 def wall() -> Scene:
@@ -194,7 +198,23 @@ def column() -> Scene:
     return Scene(lines, "base", points, Pulse("dejong", 0.21 * GRAVITY, 0.4), 3.0, 0.7, density=2620.0, area=1.0)
 
 
-SCENES: dict[str, Callable[[], Scene]] = {"block": block, "arch": arch, "stack": stack, "wall": wall, "column": column}
+def drums() -> Scene:
+    """Three drums, .4 m square and .6 m high, under a pulse 40° off their sides. The middle of the top, both ways."""
+    lines = FLOOR + "".join(box("column", (-0.2, -0.2, 0.6 * n), (0.2, 0.2, round(0.6 * n + 0.6, 1))) for n in range(3))
+    points = {name: Point("column", 2, (0.0, 0.0, 1.8), axis) for axis, name in enumerate(("top_x", "top_y"))}
+    angle = np.radians(40.0)
+    pulse = Pulse("half_sine", 0.55 * GRAVITY, 0.25, (float(np.cos(angle)), float(np.sin(angle)), 0.0))
+    return Scene(lines, "base", points, pulse, 1.0, 0.7, area=0.16)
+
+
+SCENES: dict[str, Callable[[], Scene]] = {
+    "block": block,
+    "arch": arch,
+    "stack": stack,
+    "wall": wall,
+    "column": column,
+    "drums": drums,
+}
 
 
 def scaled(scene: Scene, factor: float) -> Scene:

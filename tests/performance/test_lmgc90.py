@@ -17,7 +17,7 @@ NEAR = 0.05
 LONGER = 1.1
 """than until the peak, of what is followed here"""
 ROWS = {tuple(row[key] for key in KEYS): row for row in read_rows(RESULTS / "lmgc90.csv")}
-CASES = [*((scene, USUAL) for scene in SCENES if scene != "stack"), ("stack", RIGID)]
+CASES = [*((name, USUAL) for name in SCENES if name != "stack"), ("stack", RIGID)]
 
 
 def recorded(scene: str, point: str, joints: str) -> Mapping[str, str]:
