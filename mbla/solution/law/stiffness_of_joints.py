@@ -20,9 +20,9 @@ SAG = 1e-6
 
 def areas_of_pairs(solids: RigidBodies) -> tuple[IntArray, FloatArray]:
     """Numbers of the pairs of solids that touch, and the area m² that each shares, (n_pairs,) each."""
-    numbers = pair_numbers(solids.contacts.bodies, solids.model)
-    pairs, place = np.unique(numbers, return_inverse=True)
-    areas = np.bincount(place.ravel(), solids.contacts.areas, len(pairs))
+    apart = solids.contacts.bodies[:, 0] != solids.contacts.bodies[:, 1]  # kinematic blocks keep joints within them
+    pairs, place = np.unique(pair_numbers(solids.contacts.bodies[apart], solids.model), return_inverse=True)
+    areas = np.bincount(place.ravel(), solids.contacts.areas[apart], len(pairs))
     return pairs, np.asarray(areas, dtype=np.float64)
 
 
