@@ -44,7 +44,9 @@ class RecordedInterfaceSection(Section):
 class RecordSection(Section):
     """What is kept of a time history."""
 
-    every: Time = Field(0.01, description="time between states that are kept, s")
+    every: Time | None = Field(
+        None, description="time between states that are kept, s; default: 0.01, or more: a 400th of the duration"
+    )
     points: dict[Name, RecordedPointSection] = Field(
         default_factory=dict, description="points by name: displacement, velocity, acceleration at every step"
     )

@@ -29,6 +29,10 @@ from mbla.model.tables import TableRefused
 from mbla.model.wording import named, vector
 
 
+OFTEN, MOST_STATES = 0.01, 400
+"""s between states that are kept unless the deck says, and how many there are at most then"""
+
+
 def build_time_history(
     name: str, section: TimeHistorySection, levers: FloatArray, following: FloatArray, site: LoadSite
 ) -> TimeHistory | None:
@@ -50,14 +54,15 @@ def build_time_history(
         return None
     signals = [motion.signal for motion in motions] + [force.signal for force in forces]
     ends = max(float(signal.times[-1]) for signal in signals)
+    duration = ends if section.duration is None else section.duration
     built = TimeHistory(
         motions=motions,
         forces=forces,
         step=_default_step(section, motions, signals) if section.step is None else section.step,
-        duration=ends if section.duration is None else section.duration,
+        duration=duration,
         damping=section.damping,
         contact_damping=section.contact_damping,
-        every=section.record.every,
+        every=max(OFTEN, duration / MOST_STATES) if section.record.every is None else section.record.every,
         points=points,
         interfaces=interfaces,
         stop_displacement=np.inf if section.stop.displacement is None else section.stop.displacement,

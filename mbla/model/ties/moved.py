@@ -63,6 +63,8 @@ class TieHistory:
 
     def broken(self, ties: Ties) -> BoolArray:
         """Which ties, as built, have broken, (n,)."""
+        if not len(ties):
+            return np.zeros(0, dtype=np.bool_)
         size = np.where(ties.lengths > 0.0, ties.lengths, 0.0)
         breaks_at = np.where(np.isfinite(ties.breaks_at), ties.breaks_at, 0.0)
         beyond = self.yielded > breaks_at * size + NO_YIELD * np.maximum(size, self.longest)
