@@ -113,3 +113,14 @@ def test_what_cannot_be_resumed(deck: Path, capsys: pytest.CaptureFixture[str]) 
         run(deck, RunOptions(resume=True))
     path.write_bytes(sound)
     assert cli.main(["run", "block.yaml", "--resume", "-q"]) == 0
+
+
+def test_stopped_while_it_is_followed_with_half_of_the_step(deck: Path) -> None:
+    text = SHAKEN.replace("step: 0.005", "step: 0.005\n      check: true").replace("duration: 0.6", "duration: 0.4")
+    deck.write_text(text, encoding="utf-8")
+    whole = run(deck, RunOptions(folder=Path("whole.out")))
+    stopped(deck, 100)
+    again = run(deck, RunOptions(resume=True))
+    one, other = (each.cases[0].solution.further.time_history for each in (whole, again))
+    for name in ("rows", "histories", "peaks", "frames", "half", "end"):
+        assert same(getattr(one, name), getattr(other, name)), name

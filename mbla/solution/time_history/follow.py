@@ -159,6 +159,8 @@ class TimeWay:
         before = self.begin
         if not self.instants.kept:
             self.instants.add(before, bodies.structure.blocks_at(before.pose), None, None)
+        if before.time > 0.0 and (end := self._end(before)) not in (HistoryEnd.NONE, HistoryEnd.LATE):
+            return end  # it was stopped when it had come to its end
         for step in self.march.steps(before, history.step):
             state = step.after
             there = bodies.structure.blocks_at(state.pose)
