@@ -28,7 +28,6 @@ from mbla.model.solids.plane import unit
 from mbla.model.tables import TableRefused
 from mbla.model.wording import named, vector
 
-
 OFTEN, MOST_STATES = 0.01, 400
 """s between states that are kept unless the deck says, and how many there are at most then"""
 

@@ -16,7 +16,7 @@ NOTABLE = 1e-3
 """of the size of the block that moves most: openings and slips below it are not seen, as those of elastic joints"""
 BOTH = 1.0 / 3.0
 """of the greater of opening and slip, from which the lesser is said as well"""
-MOVING = 0.1
+MOVING = 0.01
 """of the peak, by which the displacement at the end still varies where that is said"""
 COMES_BACK = 0.5
 """of the peak, up to which what stays is said as what it comes back to"""

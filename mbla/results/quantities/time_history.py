@@ -236,11 +236,11 @@ PEAKS.fields(
     times=Field("when that was", "block", unit="time"),
     rotations=Field("greatest rotation of each block", "block", unit="radian"),
     residuals=Field(
-        "displacement of each block at the end; of one that still moves the mean over the last period of motion",
+        "displacement of each block at the end",
         "block",
         unit="length",
     ),
-    wanders=Field("by how much it still varied about that", "block", unit="length"),
+    wanders=Field("greatest distance from there over the last tenth of the duration", "block", unit="length"),
     openings=Field("greatest opening of each interface", "interface", unit="length"),
     slips=Field("greatest slip of each interface", "interface", unit="length"),
     falling=Field(

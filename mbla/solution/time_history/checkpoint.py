@@ -25,7 +25,7 @@ class Checkpoint:
     found_at, touching, areas : pose of the solids where contacts were found, these, and the areas that their points are
                 as stiff as
     tie_rows : (n_ties,) ties of the model that are among the joints
-    last     : (m, n_blocks, 3) displacements of the blocks over which the residual displacement is taken
+    last     : (m, n_blocks, 3) displacements of the blocks by which the residual displacement still varies
     in_frames : whether the contact points are those of the last frame
     """
 

@@ -33,7 +33,7 @@ from mbla.solution.time_history.step_rows import HistoryEnd
 from mbla.solution.time_history.time_state import TimeState
 
 WINDOW = 0.1
-"""Share of the duration, at its end, over which the residual displacement is taken."""
+"""Share of the duration, at its end, over which it is seen whether the residual displacement still varies."""
 
 STILL = 1e-10
 """Kinetic energy over total weight times mean size of blocks, with which the structure is at rest."""
@@ -176,8 +176,15 @@ class TimeWay:
                 return end
         raise AssertionError("steps go on without end")
 
+    def _to_last_step(self) -> None:
+        """Leaves out what is kept of a step that was cut off before all of it was."""
+        steps, now = self.begin.counts.steps, self.begin.time
+        del self.rows.rows[steps + 1 :], self.instants.kept[steps + 1 :]
+        self.frames.before(now - 1e-9 * self.march.bodies.history.step)
+
     def result(self, end: HistoryEnd) -> TimeHistoryResult:
         """With the steps so far."""
+        self._to_last_step()
         bodies = self.march.bodies
         history = bodies.history
         k = bodies.structure.stiffness * float(bodies.structure.of_laws[:, 0].mean())

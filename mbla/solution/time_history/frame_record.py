@@ -100,6 +100,15 @@ class FrameKeeper:
             )
         )
 
+    def before(self, time: float) -> None:
+        """Leaves out frames that begin later, s, and contact points that only these have."""
+        while self.frames and self.frames[-1].time >= time:
+            self.frames.pop()
+        used = self.frames[-1].number + 1 if self.frames else 0
+        if len(self.sets) > used:
+            del self.sets[used:]
+            self.of_last = None
+
     def result(self) -> Frames:
         """All frames."""
         frames = self.frames

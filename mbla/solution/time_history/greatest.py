@@ -26,7 +26,7 @@ class Greatest:
     rest    : pose of the blocks at rest
     down    : (3,) direction of the dead load
     corners : of all interfaces
-    last    : shifts of the last poses, over which the residual displacement is taken
+    last    : shifts of the last poses, by which the residual displacement still varies
     """
 
     blocks: Blocks
@@ -43,7 +43,7 @@ class Greatest:
 
     @staticmethod
     def of(blocks: Blocks, contacts: Contacts, rest: Pose, down: FloatArray, window: int) -> Greatest:
-        """Before the first step; the residual displacement is taken over as many poses as ``window``."""
+        """Before the first step; how much the residual displacement varies is taken of as many poses as ``window``."""
         n, corners = len(blocks), CornersAsBuilt.of(blocks, contacts)
         opening, slip = (np.maximum(each, 0.0) for each in corners.apart(rest))
         last: deque[FloatArray] = deque([rest.shift], maxlen=max(window, 1))
@@ -87,13 +87,12 @@ class Greatest:
     def result(self) -> Peaks:
         """With the residual displacements."""
         shifts = np.stack(self.last) - self.rest.shift
-        mean = shifts.mean(axis=0)
-        wanders = np.linalg.norm(shifts - mean, axis=2).max(axis=0)
+        wanders = np.linalg.norm(shifts - shifts[-1], axis=2).max(axis=0)
         return Peaks(
             displacements=self.displacements.copy(),
             times=self.times.copy(),
             rotations=self.rotations,
-            residuals=np.linalg.norm(mean, axis=1),
+            residuals=np.linalg.norm(shifts[-1], axis=1),
             wanders=wanders,
             openings=self.openings,
             slips=self.slips,

@@ -40,8 +40,8 @@ class Peaks:
     displacements : (n_blocks,) m, greatest displacement of the centroid relative to the base, from rest
     times         : (n_blocks,) s, when
     rotations     : (n_blocks,) rad, greatest
-    residuals     : (n_blocks,) m, displacement at the end; mean over the last period of motion while it still moves
-    wanders       : (n_blocks,) m, by how much it still varied about that: the uncertainty of the residual
+    residuals     : (n_blocks,) m, displacement at the end
+    wanders       : (n_blocks,) m, greatest distance from there over the last tenth of the duration
     openings, slips : (n_interfaces,) m of the interfaces of the assembly, between corners that touched as built
     falling       : (n_blocks,) s when a block has fallen: by half of its height, or tilted by 60 degrees; else nan
     """

@@ -10,8 +10,10 @@ import numpy as np
 from mbla.arrays import FloatArray, IntArray
 from mbla.contacts.contacts import Contacts
 from mbla.model.pose import Pose
+from mbla.solution.law.return_map import JointForces, joint_forces
 from mbla.solution.time_history.as_built import CornersAsBuilt
 from mbla.solution.time_history.history import RecordedHistories
+from mbla.solution.time_history.joints_in_step import JointsInStep
 from mbla.solution.time_history.march import DeckStep
 from mbla.solution.time_history.moving_bodies import MovingBodies
 from mbla.solution.time_history.time_state import TimeState
@@ -54,7 +56,7 @@ class Instants:
 
     def add(self, state: TimeState, there: Pose, before: TimeState | None, step: DeckStep | None) -> None:
         """The instant at which a state is; nothing before it at the first."""
-        blocks, history = self.bodies.structure.model.blocks, self.bodies.history
+        blocks = self.bodies.structure.model.blocks
         moved = there.displacements(blocks, self._owners, self._points)
         moved -= self.rest.displacements(blocks, self._owners, self._points)
         speed = self._speeds(state, there)
@@ -63,7 +65,7 @@ class Instants:
             # of the middles of the last steps before both, which may be small ones
             between = state.time - before.time + 0.5 * (before.length - state.length)
             acceleration = (speed - self._speeds(before, there)) / between
-        forces = np.zeros((len(history.interfaces), 3)) if step is None else self._forces(step)
+        forces = self._at_rest(state) if step is None else self._forces(step.first.joints, step.first.forces)
         apart = [self._largest(each) for each in self.corners.apart(there)]
         self.kept.append((np.array([state.time]), moved, speed, acceleration, *apart, forces))
 
@@ -103,14 +105,20 @@ class Instants:
         np.maximum.at(found, self.of_named, values)
         return np.where(np.isfinite(found), found, 0.0)
 
-    def _forces(self, step: DeckStep) -> FloatArray:
+    def _at_rest(self, state: TimeState) -> FloatArray:
+        """The same of a structure at rest."""
+        joints = JointsInStep.of(state, self.bodies.history.step)
+        normal = joints.free - joints.stiffness[0] * state.at.offsets[0]
+        return self._forces(joints, joint_forces(state.at.joints, np.vstack([normal[None], joints.shear])))
+
+    def _forces(self, joints: JointsInStep, by_law: JointForces) -> FloatArray:
         """On the second of each named pair of bodies, (n_named, 3)."""
-        history, joints = self.bodies.history, step.first.joints
+        history = self.bodies.history
         found = np.zeros((len(history.interfaces), 3))
         if not len(found):
             return found
         touching = joints.joints.touching
-        every = joints.joints.forces(np.vstack([step.first.forces.normal[None], step.first.forces.shear]))
+        every = joints.joints.forces(np.vstack([by_law.normal[None], by_law.shear]))
         forces = np.einsum("nk,nkj->nj", every[: len(touching.sizes)], joints.at.placed.frames)
         solid = np.append(self.bodies.structure.solids.label, self._grounds)
         for number, named in enumerate(history.interfaces):

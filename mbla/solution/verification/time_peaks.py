@@ -127,7 +127,7 @@ class PeakCheck:
         yield from zip(self.frames.shifts, self.frames.turns, strict=True)
 
     def _residuals(self) -> Iterator[str]:
-        """Every pose of the last part lies about its mean as said."""
+        """No pose of the last part is farther from the end than said."""
         begin = (
             self.rows.times[-1] - (round(WINDOW * self.history.duration / self.history.step) - 0.5) * self.history.step
         )
