@@ -15,11 +15,11 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
 from mbla.arrays import BoolArray, FloatArray, IntArray, starts, summed
 from mbla.assembly.assembly import Assembly
 from mbla.model.model import LoadCase, Model
+from mbla.model.pose import Pose
 from mbla.model.solids.blocks import Blocks
 
 
@@ -103,8 +103,18 @@ def second_moments(blocks: Blocks) -> FloatArray:
 
 
 def rotations_of(turns: FloatArray) -> FloatArray:
-    """Matrices of rotation vectors, (n, 3, 3) from (n, 3)."""
-    return np.asarray(Rotation.from_rotvec(turns.reshape(-1, 3)).as_matrix())
+    """Matrices of rotation vectors, (n, 3, 3) from (n, 3), by the quaternions (cos θ/2, sin θ/2 of the axis).
+
+    That is (w² − q·q) 1 + 2 q qᵀ + 2 w [q]×.
+    """
+    half = np.sqrt((turns**2).sum(axis=1)) / 2.0
+    w, q = np.cos(half), np.sinc(half / np.pi)[:, None] * turns / 2.0
+    found = 2.0 * q[:, :, None] * q[:, None, :]
+    for axis, (i, j) in enumerate(((1, 2), (2, 0), (0, 1))):
+        found[:, axis, axis] += w**2 - (q**2).sum(axis=1)
+        found[:, j, i] += 2.0 * w * q[:, axis]
+        found[:, i, j] -= 2.0 * w * q[:, axis]
+    return np.asarray(found)
 
 
 @dataclass(frozen=True)
@@ -116,9 +126,14 @@ class MovedSolids:
     turns: FloatArray
 
     @cached_property
+    def pose(self) -> Pose:
+        """Of the blocks."""
+        return Pose(self.shifts, rotations_of(self.turns))
+
+    @cached_property
     def rotations(self) -> FloatArray:
         """Of the bodies, (n, 3, 3)."""
-        return rotations_of(self.turns[self.solids.first])
+        return self.pose.rotation[self.solids.first]
 
     @cached_property
     def centres(self) -> FloatArray:
@@ -164,12 +179,15 @@ class MovedSolids:
         there = self.block_centroids[first]
         there = there + np.einsum("nij,nj->ni", turn, blocks.centroids - blocks.centroids[first])
         off = np.linalg.norm(self.block_centroids - there, axis=1) / self.solids.sizes[body]
-        turned = np.abs(rotations_of(self.turns) - turn).max(axis=(1, 2), initial=0.0)
+        turned = np.abs(self.pose.rotation - turn).max(axis=(1, 2), initial=0.0)
         return float(np.max([off, turned], initial=0.0))
 
 
 TURNS = 4
 """Times that an angular velocity is found again with the inertia half a step before; each gains a factor h ω."""
+
+SETTLED = 1e-13
+"""Change of the turn in a step by which it does not change any more, rad."""
 
 
 def spins_before(solids: Solids, moved: MovedSolids, angular: FloatArray, before: float) -> FloatArray:
@@ -183,6 +201,10 @@ def spins_before(solids: Solids, moved: MovedSolids, angular: FloatArray, before
     back = turn
     for _ in range(TURNS):
         inertia = back @ tensors @ back.transpose(0, 2, 1)
-        found[can] = np.linalg.solve(inertia, angular[can, :, None])[:, :, 0]
-        back = rotations_of(-found[can] * before / 2.0) @ turn
+        spins: FloatArray = np.asarray(np.linalg.solve(inertia, angular[can, :, None])[:, :, 0], dtype=np.float64)
+        settled = bool((np.abs(spins - found[can]) * before <= SETTLED).all())
+        found[can] = spins
+        if settled:
+            break
+        back = rotations_of(-spins * before / 2.0) @ turn
     return found

@@ -14,7 +14,7 @@ import numpy as np
 
 from mbla.errors import Message
 from mbla.solution.verification.time_bodies import MovedSolids, rotations_of
-from mbla.solution.verification.time_frames import FrameCheck, FrameContact
+from mbla.solution.verification.time_frames import FrameCheck
 from mbla.solution.verification.time_rows import SAME_TIME
 
 GOES_ON = 1e-6
@@ -47,9 +47,8 @@ def _off(check: FrameCheck, frame: int) -> Iterator[tuple[str, float]]:
     turn = np.abs(rotations_of(h * motion[:, 3:]) @ moved.rotations - there.rotations).max(axis=(1, 2))
     yield "poses", float(np.max([off, turn], initial=0.0))
     if frames.set_of_frame[frame] == frames.set_of_frame[frame + 1]:
-        points = frames.sets[int(frames.set_of_frame[frame])]
-        contact = FrameContact.of(check, frame, moved, points)
+        contact = check.contact(frame)
         kept = contact.friction_kept()
-        left = np.where(points.bodies[:, :1] >= 0, frames.remembered[frames.values(frame + 1), 1:] - kept, 0.0)
+        left = np.where(contact.points.bodies[:, :1] >= 0, frames.remembered[frames.values(frame + 1), 1:] - kept, 0.0)
         largest = max(float(np.abs(frames.forces[frames.values(frame)]).max(initial=0.0)), 1e-300)
         yield "friction forces", float(np.abs(left).max(initial=0.0)) / largest

@@ -21,7 +21,7 @@ import numpy as np
 from mbla.arrays import BoolArray, FloatArray
 from mbla.model.model import LoadCase, Model
 from mbla.model.motion.time_history import TimeHistory
-from mbla.model.pose import Pose, moved_model
+from mbla.model.pose import moved_model
 from mbla.model.ties.moved import moved_ties, tie_lengths
 from mbla.model.ties.ties import Ties
 from mbla.solution.time_history.frames import Frames, PointSet
@@ -85,12 +85,15 @@ class FrameCheck:
         columns = np.column_stack(impulses) if impulses else np.zeros((len(frames), 0))
         return FrameCheck(case, history, solids, frames, base_changes(history, begins, ends), columns)
 
-    def residual(self, frame: int) -> FrameResidual:
+    def contact(self, frame: int) -> FrameContact:
+        """Bodies, points and ties of a frame where they are, with velocities after the step."""
+        frames = self.frames
+        moved = MovedSolids(self.solids, frames.shifts[frame], frames.turns[frame])
+        return FrameContact.of(self, frame, moved, frames.sets[int(frames.set_of_frame[frame])])
+
+    def residual(self, frame: int, contact: FrameContact) -> FrameResidual:
         """Of one frame."""
-        frames, solids = self.frames, self.solids
-        moved = MovedSolids(solids, frames.shifts[frame], frames.turns[frame])
-        points = frames.sets[int(frames.set_of_frame[frame])]
-        contact = FrameContact.of(self, frame, moved, points)
+        frames, solids, moved = self.frames, self.solids, contact.moved
         weight = float(np.abs(self.case.dead_load[~solids.model.fixed, :3]).sum())
         off, closing = contact.off_law(self._fall(frame))
         forces = frames.forces[frames.values(frame)]
@@ -201,14 +204,15 @@ class FrameContact:
         axes = moved.turned(host, points.frames[surface])
         places = np.where(points.host[surface][:, None], *ends)
         speeds = [moved.velocities(bodies[:, side], places, motion) for side in (0, 1)]
-        ties = moved_ties(model.ties, model.blocks, Pose(moved.shifts, rotations_of(moved.turns)))
+        ties = moved_ties(model.ties, model.blocks, moved.pose)
         n, own = int(surface.sum()), points.laws[~surface]
         gaps, closing = np.zeros(len(surface)), np.zeros((len(surface), 3))
         gaps[:n] = np.einsum("nj,nj->n", axes[:, 0], ends[1] - ends[0])
         closing[:n] = np.einsum("nij,nj->ni", axes, speeds[1] - speeds[0])
-        sense = senses(model.ties)[own]
-        gaps[n:] = -sense * (tie_lengths(ties) - tie_lengths(model.ties))[own]
-        closing[n:, 0] = -sense * _lengthening(moved, ties, motion)[own]
+        if len(own):
+            sense = senses(model.ties)[own]
+            gaps[n:] = -sense * (tie_lengths(ties) - tie_lengths(model.ties))[own]
+            closing[n:, 0] = -sense * _lengthening(moved, ties, motion)[own]
         values = frames.values(frame)
         return FrameContact(
             moved, points, surface, ends, axes, gaps, closing, ties, frames.remembered[values], frames.forces[values],
@@ -302,7 +306,7 @@ def _without_guides(solids: Solids, moved: MovedSolids, left: FloatArray) -> Flo
         return left
     block = guides.blocks
     body = solids.label[block]
-    model = moved_model(solids.model, Pose(moved.shifts, rotations_of(moved.turns)))
+    model = moved_model(solids.model, moved.pose)
     arms = moved.block_centroids[block] - moved.centres[body]
     on_blocks = np.zeros((len(solids.label), 6))
     on_blocks[block] = left[body]

@@ -27,7 +27,7 @@ from mbla.solution.verification.time_peaks import PeakCheck
 from mbla.solution.verification.time_points import HistoryCheck
 from mbla.solution.verification.time_rows import RowResidual, row_residual
 from mbla.solution.verification.time_said import end_failures, frames_failures, said_failures
-from mbla.solution.verification.time_works import works_failures
+from mbla.solution.verification.time_works import works, works_failures
 
 LAW = 1e-3
 """Force off the law over the largest of the frame."""
@@ -91,13 +91,17 @@ def history_failures(
     if any(failure.identifier != "time-base" for failure in failures):
         return None, tuple(failures)
     check = FrameCheck.of(case, history, solids, frames)
-    residuals = [check.residual(frame) for frame in range(len(frames))]
+    residuals, done = [], []
+    for frame in range(len(frames)):
+        contact = check.contact(frame)
+        residuals.append(check.residual(frame, contact))
+        done.append(works(check, frame, contact))
     of_rows = row_residual(case, history, solids, rows, frames)
     failures += _residual_failures(frames, residuals)
     failures += _overlap_failures(solids, frames)
     failures += following_failures(check)
     failures += _energy_failures(of_rows)
-    failures += works_failures(check, rows)
+    failures += works_failures(check, rows, np.array(done))
     failures += said_failures(history, frames, result)
     contacts = assembly.contacts
     failures += HistoryCheck.of(contacts, history, solids, rows, frames, result.histories).failures()

@@ -12,12 +12,12 @@ from mbla.arrays import BoolArray, FloatArray, IntArray, summed
 from mbla.model.model import LoadCase
 from mbla.model.motion.time_history import TimeHistory
 from mbla.model.ties.ties import OUTSIDE, Ties
-from mbla.solution.verification.time_bodies import MovedSolids, Solids, rotations_of
+from mbla.solution.verification.time_bodies import MovedSolids, Solids
 
 
 def dead_wrenches(moved: MovedSolids, case: LoadCase, history: TimeHistory) -> FloatArray:
     """Dead load on the blocks where they are, about their centroids, (n_blocks, 6)."""
-    turn = rotations_of(moved.turns)
+    turn = moved.pose.rotation
     following = history.dead_following
     kept = _turned(case.dead_load - following, history.dead_levers, turn)
     along = np.einsum("bij,bkj->bki", turn, following.reshape(-1, 2, 3)).reshape(-1, 6)
@@ -26,7 +26,7 @@ def dead_wrenches(moved: MovedSolids, case: LoadCase, history: TimeHistory) -> F
 
 def force_wrenches(moved: MovedSolids, history: TimeHistory, impulses: FloatArray) -> FloatArray:
     """Forces over time on the blocks, times the impulse of each, (n_blocks, 6) from (n_forces,)."""
-    turn = rotations_of(moved.turns)
+    turn = moved.pose.rotation
     total = np.zeros((len(turn), 6))
     for force, impulse in zip(history.forces, impulses.tolist(), strict=True):
         if impulse:

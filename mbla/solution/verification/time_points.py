@@ -117,7 +117,7 @@ class HistoryCheck:
         if not whole:
             return own, np.full(3, np.nan)
         turning = frames.velocities[frame, point.block, 3:]
-        there = rotations_of(turning * h)[0] @ arm
+        there = rotations_of(turning[None] * h)[0] @ arm
         after = frames.momenta[frame, solid, :3] / solids.masses[solid]
         gain = after - speed + np.cross(turning - spin, there)
         return own, gain / ((h + before) / 2.0)

@@ -30,14 +30,17 @@ WORK = 1e-5
 """Work of a step that is not that of its frame, over the greatest energy."""
 
 
-def works_failures(check: FrameCheck, rows: StepRows) -> Iterator[Message]:
-    """Where rows say other work, or another energy of joints, than frames; of steps that were made at once."""
+def works_failures(check: FrameCheck, rows: StepRows, every: FloatArray) -> Iterator[Message]:
+    """Where rows say other work, or another energy of joints, than frames; of steps that were made at once.
+
+    every : (n_frames, 6) of ``works``
+    """
     frames = check.frames
     at, whole = rows_of_frames(rows, frames, check.history.step), whole_steps(rows)
     own = [frame for frame in range(len(frames)) if at[frame] < len(whole) and whole[at[frame]]]
     if not own:
         return
-    found = np.array([works(check, frame) for frame in own])
+    found = every[own]
     told = np.column_stack([np.diff(getattr(rows, kind))[at[own]] for kind in KINDS])
     told[:, -1] = rows.elastic[at[own] + 1]
     off = np.abs(found - told) / max(greatest_energy(rows), 1e-300)
@@ -50,14 +53,15 @@ def works_failures(check: FrameCheck, rows: StepRows) -> Iterator[Message]:
             yield Message("time-energy", f"{words} off the forces and momenta of its frame, which exceeds {WORK:g}")
 
 
-def works(check: FrameCheck, frame: int) -> FloatArray:
-    """Of one frame, in the order of ``KINDS``, (6,)."""
-    frames, solids, history = check.frames, check.solids, check.history
-    moved = MovedSolids(solids, frames.shifts[frame], frames.turns[frame])
+def works(check: FrameCheck, frame: int, after: FrameContact) -> FloatArray:
+    """Of one frame, in the order of ``KINDS``, (6,).
+
+    after : with velocities after the step
+    """
+    frames, solids, history, moved = check.frames, check.solids, check.history, after.moved
     between = float(frames.lengths[frame] + frames.lengths_before[frame]) / 2.0
     mean = _mean_motion(check, frame, moved)
-    points = frames.sets[int(frames.set_of_frame[frame])]
-    contact = FrameContact.of(check, frame, moved, points, on_blocks(moved, mean))
+    contact = FrameContact.of(check, frame, moved, after.points, on_blocks(moved, mean))
     taken = -between * contact.forces * contact.closing
     surface = contact.surface
     dead = dead_wrenches(moved, check.case, history)
@@ -66,7 +70,6 @@ def works(check: FrameCheck, frame: int) -> FloatArray:
     given[:, :3] -= between * summed(solids.label, kept, len(solids))
     of_base = -float((solids.masses[:, None] * mean[:, :3]).sum(axis=0) @ check.changes[frame])
     across, along = taken[:, 0], taken[:, 1:].sum(axis=1)
-    after = FrameContact.of(check, frame, moved, points)
     parts = of_base, along[surface].sum(), across[surface].sum(), across[~surface].sum(), (given * mean).sum()
     return np.array([*parts, _stored(after)], dtype=np.float64)
 
