@@ -19,7 +19,8 @@ from mbla.arrays import FloatArray, summed
 from mbla.errors import Message
 from mbla.solution.time_history.step_rows import StepRows
 from mbla.solution.verification.time_bodies import MovedSolids
-from mbla.solution.verification.time_frames import FrameCheck, FrameContact
+from mbla.solution.verification.time_contact import FrameContact
+from mbla.solution.verification.time_frames import FrameCheck
 from mbla.solution.verification.time_loads import dead_wrenches, force_wrenches, on_bodies, senses, tie_limits
 from mbla.solution.verification.time_rows import greatest_energy, rows_of_frames, whole_steps
 
@@ -61,7 +62,7 @@ def works(check: FrameCheck, frame: int, after: FrameContact) -> FloatArray:
     frames, solids, history, moved = check.frames, check.solids, check.history, after.moved
     between = float(frames.lengths[frame] + frames.lengths_before[frame]) / 2.0
     mean = _mean_motion(check, frame, moved)
-    contact = FrameContact.of(check, frame, moved, after.points, on_blocks(moved, mean))
+    contact = FrameContact.of(frames, frame, moved, on_blocks(moved, mean))
     taken = -between * contact.forces * contact.closing
     surface = contact.surface
     dead = dead_wrenches(moved, check.case, history)
