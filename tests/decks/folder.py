@@ -78,6 +78,8 @@ LONG = (
     "structures/retaining_wall",
     "structures/room",
     "structures/spiral_stair",
+    "time_histories/column_of_drums",
+    "time_histories/facade_under_record",
     "tutorials/arch_on_piers",
     "tutorials/arch_that_spreads",
     "tutorials/assessed_facade",

@@ -92,7 +92,7 @@ def test_every_load_case_has_an_expectation(path: Path) -> None:
         if content.load_cases[name].modes is not None and content.load_cases[name].live is None:
             figures = (expectation.period, None, None)
         if content.load_cases[name].time_history is not None:
-            figures = (expectation.peak, None, None)
+            figures = (expectation.peak, expectation.end, None)
         without = expectation.status in ("no_equilibrium", "unbounded", "not_verified")
         assert (figures == (None, None, None)) == without, name
         assert expectation.status is not None, name
