@@ -28,6 +28,8 @@ CASES = {
     "time_step": ("scene",),
     "kernels": ("structure", "case"),
     "rigid_in_time": ("structure", "case", "ratio"),
+    "time_history": ("scene", "step"),
+    "energy_of_random_scenes": ("scene",),
     "path": ("structure",),
     "path_settings": ("setting", "way"),
     "rivals": ("structure", "rival"),
