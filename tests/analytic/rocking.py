@@ -88,7 +88,8 @@ def rocked(
         if size.max() > best:
             best, when = float(size.max()), float(found.t[size.argmax()])
         time, state = float(found.t[-1]), found.y[:, -1]
-        hits, falls = found.t_events or ([], [])
+        assert found.t_events is not None
+        hits, falls = found.t_events
         if len(falls):
             return Rocked(best, when, tuple(impacts), True)
         if len(hits):
@@ -156,5 +157,5 @@ def time_to_impact(block: RockingBlock, turn: float) -> float:
     found = solve_ivp(
         _turning(block, lambda time: 0.0, 1.0), (0.0, 10.0 / block.p), [turn, 0.0], events=_impact(1.0), rtol=1e-10
     )
-    hits = found.t_events or [[]]
-    return float(hits[0][0])
+    assert found.t_events is not None
+    return float(found.t_events[0][0])
