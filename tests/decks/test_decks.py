@@ -84,7 +84,7 @@ def test_every_load_case_has_an_expectation(path: Path) -> None:
     content = deck_of(path).content
     assert set(content.expected) == set(content.load_cases)
     for name, expectation in content.expected.items():
-        figures = (expectation.load_factor, expectation.associative_load_factor, expectation.angle)
+        figures: tuple[object, ...] = (expectation.load_factor, expectation.associative_load_factor, expectation.angle)
         if content.load_cases[name].settlement is not None:
             figures = (expectation.reaction, None, None)
         if content.load_cases[name].objective is not None:
