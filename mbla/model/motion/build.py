@@ -19,7 +19,13 @@ from mbla.model.motion.baseline import high_passed, without_line
 from mbla.model.motion.columns import read_columns
 from mbla.model.motion.pulses import pulse_of
 from mbla.model.motion.record import Record
-from mbla.model.motion.remarks import remark_on_duration, remark_on_motion, remark_on_record, remark_on_step
+from mbla.model.motion.remarks import (
+    refuse_late_start,
+    remark_on_duration,
+    remark_on_motion,
+    remark_on_record,
+    remark_on_step,
+)
 from mbla.model.motion.signal import Signal
 from mbla.model.motion.time_history import BaseMotion, ForceHistory, RecordedInterface, RecordedPoint, TimeHistory
 from mbla.model.outside import outside
@@ -39,8 +45,8 @@ def build_time_history(
 
     levers, following : of its dead loads, as ``TimeHistory`` has them
 
-    Refuses files that are no records, forces that move nothing, points and interfaces of blocks that there are not, and
-    kinematic blocks that are fixed or share a block.
+    Refuses files that are no records, forces that move nothing, what starts after the end, points and interfaces of
+    blocks that there are not, and kinematic blocks that are fixed or share a block.
     """
     path: KeyPath = ("load_cases", name, "time_history")
     before = len(site.selection.faults)
@@ -92,7 +98,10 @@ def _default_step(section: TimeHistorySection, motions: tuple[BaseMotion, ...], 
 def _motions(section: TimeHistorySection, path: KeyPath, site: LoadSite) -> Iterator[BaseMotion]:
     for number, motion in enumerate(motions_of(section)):
         place: KeyPath = (*path, "motion", number) if isinstance(section.motion, list) else (*path, "motion")
-        yield from _pulse(motion, site) if motion.pulse is not None else _record(motion, place, site)
+        built = list(_pulse(motion, site) if motion.pulse is not None else _record(motion, place, site))
+        for first in built[:1]:
+            refuse_late_start(motion, first.signal, section, place, site)
+        yield from built
 
 
 def _pulse(motion: MotionSection, site: LoadSite) -> Iterator[BaseMotion]:
@@ -186,6 +195,7 @@ def _forces(section: TimeHistorySection, path: KeyPath, site: LoadSite) -> Itera
         direction, centroid = unit(vector_of(force.direction)), site.blocks.centroids[block]
         factor = force.scale * site.units.convert(f"1 {force.unit}", "force")
         signal = Signal(record.times, factor * record.values[:, 0]).later(force.start)
+        refuse_late_start(force, signal, section, place, site)
         words = f"force of {force.file} along {vector(direction)} on {site.blocks.name(block)}"
         words += f", peak {signal.peak:.6g} {site.units.force}" + _from(force.start)
         point = centroid if force.at is None else np.array(force.at)

@@ -1,4 +1,4 @@
-"""What is odd about motions: mostly a unit, a baseline, or a time step."""
+"""What is odd about motions: mostly a unit, a baseline, or a time step; and what starts too late to act."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import numpy as np
 
 from mbla.deck.sections.motion import ForceHistorySection, MotionSection
 from mbla.deck.sections.time_history import OF_PULSE, TimeHistorySection, motions_of
-from mbla.errors import Notice
+from mbla.errors import Finding, KeyPath, Notice
 from mbla.model.loads.load_kind import LoadSite
 from mbla.model.motion.record import Record
 from mbla.model.motion.signal import Signal
@@ -45,6 +45,22 @@ def remark_on_record(
         if abs(there - factor) > ROUNDING * factor:
             words = f"{section.file}: its header says that values are in {of_header}, the deck {section.unit}"
             site.warn("motion-unit", f"{words}: unit: {of_header}?")
+
+
+def refuse_late_start(
+    moves: MotionSection | ForceHistorySection,
+    signal: Signal,
+    section: TimeHistorySection,
+    path: KeyPath,
+    site: LoadSite,
+) -> None:
+    """Leaves a fault where the duration that is asked for ends before a motion, or a force, starts."""
+    begin = float(signal.times[0])
+    if section.duration is not None and begin >= section.duration:
+        words = f"it starts at {begin:g} s, but the time history ends at {section.duration:g} s and nothing of it acts"
+        words += ": give a longer duration, or an earlier start"
+        key = "start" if moves.start > 0.0 else "file"
+        site.refuse(Finding("time-history-without-effect", words, *path, key))
 
 
 def remark_on_motion(words: str, peak: float, site: LoadSite, raw: Signal | None = None) -> None:
