@@ -44,7 +44,7 @@ what its turn and that of the step before it differ by."""
 APART = 1e-6
 """Distance of blocks from where their body takes them, over its size."""
 ENERGY = 1e-6
-"""Energy that a row lacks, or has beside its frame, over the greatest."""
+"""Energy that a row lacks, or has beside its frame, over the greatest, or dead load times sag where that is more."""
 OVERLAP = 0.05
 """Overlap of bodies over the size of the smaller, beyond which they are not beside each other."""
 

@@ -26,7 +26,7 @@ SAME_TIME = 1e-9
 
 @dataclass(frozen=True)
 class RowResidual:
-    """How far rows are from what they should be, over the greatest energy of any.
+    """How far rows are from what they should be, over the greatest energy of any (``energy_scale``).
 
     balance   : of gains, work and what joints take, in a row
     kinetic   : of a row against the momenta of the frame that begins there
@@ -40,10 +40,17 @@ class RowResidual:
     base: float
 
 
-def greatest_energy(rows: StepRows) -> float:
-    """Of any kind in any row."""
+def energy_scale(case: LoadCase, solids: Solids, rows: StepRows, frames: Frames) -> float:
+    """What energies are off by is told over this: the greatest of any kind in any row.
+
+    At least the dead load of every block that can move times the sag of the block: joints store half of it at rest, and
+    where what moves is less, energies are differences of what that rounds to.
+    """
     kinds = (rows.kinetic, rows.potential, rows.friction, rows.contacts, rows.ties, rows.base, rows.forces)
-    return float(np.max([np.abs(kind).max(initial=0.0) for kind in kinds]))
+    greatest = [np.abs(kind).max(initial=0.0) for kind in kinds]
+    loads, sags = (np.linalg.norm(each, axis=1) for each in (case.dead_load[:, :3], frames.shifts[0]))
+    at_rest = float((loads * sags)[solids.free[solids.label]].sum())
+    return max(float(np.max(greatest)), at_rest, 1e-300)
 
 
 def rows_of_frames(rows: StepRows, frames: Frames, step: float) -> IntArray:
@@ -58,7 +65,7 @@ def rows_of_frames(rows: StepRows, frames: Frames, step: float) -> IntArray:
 
 def row_residual(case: LoadCase, history: TimeHistory, solids: Solids, rows: StepRows, frames: Frames) -> RowResidual:
     """Of all rows."""
-    scale = max(greatest_energy(rows), 1e-300)
+    scale = energy_scale(case, solids, rows, frames)
     taken = rows.contacts + rows.friction + rows.ties
     lacks = rows.kinetic + rows.potential + taken - rows.base - rows.forces - rows.numerical
     at = rows_of_frames(rows, frames, history.step)

@@ -22,7 +22,7 @@ from mbla.solution.verification.time_bodies import MovedSolids
 from mbla.solution.verification.time_contact import FrameContact
 from mbla.solution.verification.time_frames import FrameCheck
 from mbla.solution.verification.time_loads import dead_wrenches, force_wrenches, on_bodies, senses, tie_limits
-from mbla.solution.verification.time_rows import greatest_energy, rows_of_frames, whole_steps
+from mbla.solution.verification.time_rows import energy_scale, rows_of_frames, whole_steps
 
 KINDS = ("base", "friction", "contacts", "ties", "forces", "elastic")
 """columns of the rows that follow from a frame; the last as it is after the step, the others by their change"""
@@ -44,7 +44,7 @@ def works_failures(check: FrameCheck, rows: StepRows, every: FloatArray) -> Iter
     found = every[own]
     told = np.column_stack([np.diff(getattr(rows, kind))[at[own]] for kind in KINDS])
     told[:, -1] = rows.elastic[at[own] + 1]
-    off = np.abs(found - told) / max(greatest_energy(rows), 1e-300)
+    off = np.abs(found - told) / energy_scale(check.case, check.solids, rows, frames)
     for kind, values in zip(KINDS, off.T, strict=True):
         if not values.max() <= WORK:
             frame = own[int(np.argmax(np.where(np.isnan(values), np.inf, values)))]
