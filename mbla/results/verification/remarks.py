@@ -75,7 +75,7 @@ def remarks_found_again(deck: Deck, assembly: Assembly, case: CaseResult) -> tup
             found += pushover_remarks(model, load_case, solution, solution.further.pushover)
         found += [no_pushover(against)] if against else []
     if len(solution.further.modes):
-        found += modes_remarks(load_case, solution.further.modes)
+        found += modes_remarks(model, load_case, solution.further.modes)
         found += [modes_wrong(words) for words in checked_modes(assembly, load_case, solution.further.modes)[1]]
     found += history_remarks(model, load_case, solution.further.time_history)
     if deck.analysis.sensitivity is not False:

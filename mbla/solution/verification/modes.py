@@ -21,6 +21,7 @@ from mbla.model.model import LoadCase
 from mbla.model.solids.blocks import Blocks
 from mbla.solution.linear_algebra.superlu import negative_pivots
 from mbla.solution.modes.modes import Modes
+from mbla.solution.verification.leaning import left_out_share
 from mbla.solution.verification.rest import UNBALANCED, AtRest, same, stiffness_of_deck
 from mbla.solution.verification.statics import contact_resultants, contact_velocities, left_to_balance, lever_arms
 
@@ -63,6 +64,10 @@ def checked_modes(assembly: Assembly, load_case: LoadCase, modes: Modes) -> tupl
         residual = max(residual, float(np.linalg.norm(left / arms[moves])) / size)
     if not residual <= RESIDUAL:
         wrong.append(f"a mode leaves {residual:.2g} of its forces without balance")
+    if (share := left_out_share(assembly.model.of_case(load_case), load_case, modes)) >= 1.0:
+        wrong.append(
+            f"it does not stand on joints that soft: its weight takes about {share:.2g} of its stiffness as it leans"
+        )
     wrong += [*_wrong_masses(rest, modes, vectors, momenta), *_left_out(rest, stiffness, masses, squares)]
     return replace(modes, residual=residual, verified=not wrong), tuple(wrong)
 
