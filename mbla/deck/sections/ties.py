@@ -92,9 +92,9 @@ class TieSection(Section):
     )
     breaks_at: BreaksAt | None = Field(
         None,
-        description="in a pushover: elongation over length (of a strut shortening) at which the tie breaks; 0: "
-        "brittle, as soon as it yields; `never`: it yields without end. Default: never, of strips 0, as glue lets "
-        "go by a slip of tenths of a millimetre (CNR-DT 200 R1/2013)",
+        description="in a pushover and in a time history: elongation over length (of a strut shortening) at which the "
+        "tie breaks; 0: brittle, as soon as it yields; `never`: it yields without end. Default: never, of strips 0, as "
+        "glue lets go by a slip of tenths of a millimetre (CNR-DT 200 R1/2013)",
     )
     repeat: Repeat = Field(default_factory=list, description="copies, as of items")
 

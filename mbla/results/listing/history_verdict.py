@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 from mbla.model.model import Model
+from mbla.results.history_damage import HistoryDamage, history_damage
 from mbla.results.history_figures import HistoryFigures, history_figures
 from mbla.results.listing.text import counted
 from mbla.results.results import CaseResult
@@ -33,7 +34,8 @@ def history_verdict(model: Model, case: CaseResult) -> str:
         return case.load_case.question.no_equilibrium
     if figures is None or asked is None:
         return f"NOT VERIFIED: {case.solution.reason}"
-    told = motion_words(model, figures, found.end)
+    damage = history_damage(model, found)
+    told = motion_words(model, figures, damage, found.end) + _broken_words(model, damage)
     told += "" if found.half is not None else "; not checked with half of the step"
     if case.status is Status.TIME_LIMIT:
         begin = "NOT SOLVED (the time ran out)" if found.end is HistoryEnd.LATE else "NOT SOLVED (stopped)"
@@ -43,16 +45,16 @@ def history_verdict(model: Model, case: CaseResult) -> str:
     return told if case.status is Status.SOLVED else f"{told}; approximate"
 
 
-def motion_words(model: Model, figures: HistoryFigures, end: HistoryEnd) -> str:
+def motion_words(model: Model, figures: HistoryFigures, damage: HistoryDamage, end: HistoryEnd) -> str:
     """What moves and how far, what falls, what stays."""
     if figures.falls >= 0:
         others = f", and {counted(figures.fallen - 1, 'block')} after it" if figures.fallen > 1 else ""
         falls = f"{_name(model, figures.falls)} falls at {_seconds(figures.fall_time)}"
-        return f"{_manner(model, figures)}, and {falls}{others}"
+        return f"{_manner(model, figures, damage)}, and {falls}{others}"
     peak = f"{peak_words(model, figures)} at {_seconds(figures.peak_time)}{_where(model, figures)}"
     if _is_still(model, figures):
         return f"stays still: it moves by at most {peak}"
-    words = f"{_manner(model, figures)}, peak {peak}"
+    words = f"{_manner(model, figures, damage)}, peak {peak}"
     if end is HistoryEnd.DISPLACED:
         return f"{words}, where it ends as asked; no block has fallen"
     return f"{words}, {_rest_words(model, figures)}; no block falls"
@@ -76,9 +78,25 @@ def _rest_words(model: Model, figures: HistoryFigures) -> str:
     return f"{rest:.2g} {length} of displacement stay"
 
 
-def _manner(model: Model, figures: HistoryFigures) -> str:
-    """Whether joints open or slip more."""
+def _broken_words(model: Model, damage: HistoryDamage) -> str:
+    """``; tie b breaks at about 0.4 s, and 2 others after it``."""
+    if not damage.broken:
+        return ""
+    (tie, time), *others = damage.broken
+    after = f", and {counted(len(others), 'other')}" if others else ""
+    return f"; tie {model.ties.names[tie]} breaks at about {_seconds(time)}{after}"
+
+
+def _manner(model: Model, figures: HistoryFigures, damage: HistoryDamage) -> str:
+    """Whether joints open or slip more, and whether they crush."""
     least = NOTABLE * float(model.blocks.sizes[figures.peak_block])
+    moves = _opens_or_slips(figures, least)
+    if not damage.crushing > least:
+        return moves
+    return "crushes" if moves == "moves" else f"{moves} and crushes"
+
+
+def _opens_or_slips(figures: HistoryFigures, least: float) -> str:
     opens, slips = figures.opening, figures.slip
     if max(opens, slips) <= least:
         return "moves"

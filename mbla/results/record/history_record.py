@@ -11,6 +11,7 @@ import numpy as np
 from mbla.arrays import FloatArray
 from mbla.model.motion.spectrum import spectral_acceleration
 from mbla.model.motion.time_history import BaseMotion
+from mbla.results.history_damage import HistoryDamage, history_damage
 from mbla.results.history_figures import HistoryFigures, drift_of
 from mbla.results.listing.history_verdict import history_verdict
 from mbla.results.outcome import history_of
@@ -87,7 +88,33 @@ _declare("missed", "int", "smallest steps that did not converge", lambda _, f: f
 _declare("factorisations", "int", "factorisations", lambda _, f: f.factorisations)
 _declare("balance", "float", "error of the balance of energies over the largest of them", lambda _, f: f.balance)
 _declare("change_by_half_step", "float", "change of the peak with half of the step, over it", lambda _, f: f.half_step)
+_declare(
+    "crushing",
+    "float",
+    "greatest depth by which a joint has crushed; null where none can crush",
+    lambda scene, _: _damage(scene).crushing,
+    "length",
+)
 TIME_HISTORY.holds("half_step", HALF_STEP, "the same with half of the step; null where not asked for")
+
+
+@TIME_HISTORY.key("a time, by the name of the tie", unit="time")
+def broken_ties(scene: Scene) -> dict[str, float]:
+    """Ties that broke, and about when."""
+    return {scene.model.ties.names[tie]: time for tie, time in _damage(scene).broken}
+
+
+@TIME_HISTORY.key("the name of a tie")
+def yielded_ties(scene: Scene) -> list[str]:
+    """Ties that yielded and did not break."""
+    return [scene.model.ties.names[tie] for tie in _damage(scene).yielded]
+
+
+def _damage(scene: Scene) -> HistoryDamage:
+    """None where what was followed is no result."""
+    if history_of(scene.solved) is None:
+        return HistoryDamage()
+    return history_damage(scene.model, scene.solved.solution.further.time_history)
 
 
 @TIME_HISTORY.key(inside=ENERGIES)

@@ -8,6 +8,7 @@ from mbla.arrays import FloatArray
 from mbla.assembly.assembly import Assembly
 from mbla.model.model import LoadCase, Model
 from mbla.model.motion.time_history import BaseMotion, TimeHistory
+from mbla.results.history_damage import HistoryDamage, history_damage
 from mbla.results.history_figures import HistoryFigures, drift_of, history_figures
 from mbla.results.listing.answers import status_name
 from mbla.results.listing.blocks import MOST_ROWS, Block, Fact, apart, facts, paragraphs, table_of
@@ -43,7 +44,7 @@ def history_sections(assembly: Assembly, case: CaseResult) -> dict[str, list[Blo
     return {
         "Time history": [
             *facts([Fact("status", status_name(case.status)), *_base(model, asked)]),
-            *facts(_figures(assembly, case, figures)),
+            *facts([*_figures(assembly, case, figures), *_damage(model, history_damage(model, found))]),
             *apart(_points(model, asked, found.histories)),
             *paragraphs(ACCELERATIONS if asked.points and found.histories is not None else ""),
             *apart(_joints(assembly, load_case, found)),
@@ -92,6 +93,26 @@ def _figures(assembly: Assembly, case: CaseResult, figures: HistoryFigures) -> l
             where = f", {_pair(assembly, interface)}" if value > 0.0 else ""
             rows.append(Fact(what, f"{value:.3g} {length}{where}"))
     return rows
+
+
+def _damage(model: Model, damage: HistoryDamage) -> list[Fact]:
+    """Ties that broke and yielded, and the joint that crushed most."""
+    names, rows = model.ties.names, []
+    if damage.broken:
+        rows.append(Fact("ties that broke", _few([f"{names[tie]}, at about {at:.4g} s" for tie, at in damage.broken])))
+    if damage.yielded:
+        rows.append(Fact("ties that yielded", _few([names[tie] for tie in damage.yielded])))
+    if not np.isnan(damage.crushing):
+        a, b = damage.bodies
+        where = f", {model.body_name(a)} and {model.body_name(b)}" if damage.crushing > 0.0 else ""
+        rows.append(Fact("greatest crushing of a joint", f"{damage.crushing:.3g} {model.units.length}{where}"))
+    return rows
+
+
+def _few(told: list[str]) -> str:
+    """The first of many."""
+    rest = len(told) - MOST_ROWS
+    return "; ".join(told[:MOST_ROWS]) + (f"; {rest} more" if rest > 0 else "")
 
 
 def _pair(assembly: Assembly, interface: int) -> str:
