@@ -31,7 +31,9 @@ class TargetSection(Section):
         "greatest uniform pressure in all joints, as of water, that is carried with it: 0 at the limit",
     )
     falls: Switch | None = Field(
-        None, description="true: where a block of a load case with time_history begins to fall, as over its scale"
+        None,
+        description="true: where a block of a load case with time_history begins to fall, as over its scale; "
+        "a history that ends while it still moves tells nothing of that",
     )
     peak: PositiveLength | None = Field(
         None, description="greatest displacement of a block in a load case with time_history; what falls is above it"

@@ -12,6 +12,7 @@ from mbla.results.results import CaseResult
 from mbla.solution.pushover.followed import STEP_DEPENDENCE
 from mbla.solution.solution import Status
 from mbla.solution.time_history.step_rows import HistoryEnd
+from mbla.solution.time_history.still_moves import still_moves
 
 NOTABLE = 1e-3
 """of the size of the block that moves most: openings and slips below it are not seen, as those of elastic joints"""
@@ -35,7 +36,8 @@ def history_verdict(model: Model, case: CaseResult) -> str:
     if figures is None or asked is None:
         return f"NOT VERIFIED: {case.solution.reason}"
     damage = history_damage(model, found)
-    told = motion_words(model, figures, damage, found.end) + _broken_words(model, damage)
+    moves = still_moves(model, found)
+    told = motion_words(model, figures, damage, found.end, moves=moves) + _broken_words(model, damage)
     told += "" if found.half is not None else "; not checked with half of the step"
     if case.status is Status.TIME_LIMIT:
         begin = "NOT SOLVED (the time ran out)" if found.end is HistoryEnd.LATE else "NOT SOLVED (stopped)"
@@ -45,8 +47,11 @@ def history_verdict(model: Model, case: CaseResult) -> str:
     return told if case.status is Status.SOLVED else f"{told}; approximate"
 
 
-def motion_words(model: Model, figures: HistoryFigures, damage: HistoryDamage, end: HistoryEnd) -> str:
-    """What moves and how far, what falls, what stays."""
+def motion_words(model: Model, figures: HistoryFigures, damage: HistoryDamage, end: HistoryEnd, *, moves: bool) -> str:
+    """What moves and how far, what falls, what stays.
+
+    moves : whether it still moves far at the end
+    """
     if figures.falls >= 0:
         others = f", and {counted(figures.fallen - 1, 'block')} after it" if figures.fallen > 1 else ""
         falls = f"{_name(model, figures.falls)} falls at {_seconds(figures.fall_time)}"
@@ -57,6 +62,9 @@ def motion_words(model: Model, figures: HistoryFigures, damage: HistoryDamage, e
     words = f"{_manner(model, figures, damage)}, peak {peak}"
     if end is HistoryEnd.DISPLACED:
         return f"{words}, where it ends as asked; no block has fallen"
+    if moves or figures.wander > MOVING * figures.peak:
+        varies = f"{figures.residual:.2g} {model.units.length} (+- {figures.wander:.1g})"
+        return f"{words}, still moves at the end, about {varies}; no block has fallen"
     return f"{words}, {_rest_words(model, figures)}; no block falls"
 
 
@@ -70,9 +78,7 @@ def peak_words(model: Model, figures: HistoryFigures) -> str:
 
 
 def _rest_words(model: Model, figures: HistoryFigures) -> str:
-    length, rest, wander = model.units.length, figures.residual, figures.wander
-    if wander > MOVING * figures.peak:
-        return f"still moves at the end, about {rest:.2g} {length} (+- {wander:.1g})"
+    length, rest = model.units.length, figures.residual
     if rest <= COMES_BACK * figures.peak:
         return f"comes back to {rest:.2g} {length}"
     return f"{rest:.2g} {length} of displacement stay"

@@ -8,6 +8,7 @@ from mbla.errors import Message
 from mbla.model.model import LoadCase, Model
 from mbla.solution.time_history.history import TimeHistoryResult
 from mbla.solution.time_history.judged import is_rough, missed_words
+from mbla.solution.time_history.still_moves import STILL_MOVES, still_moves
 
 SOFT = 1e-3
 """Sag over the size of blocks from which the joints are told to be soft."""
@@ -42,3 +43,5 @@ def _remarks(model: Model, case: LoadCase, result: TimeHistoryResult) -> Iterato
         yield Message("time-history-coarse", words)
     if rows.missed[-1] > 0 and not is_rough(rows):
         yield Message("time-history-missed", missed_words(rows))
+    if still_moves(model, result):
+        yield Message("history-still-moves", STILL_MOVES)

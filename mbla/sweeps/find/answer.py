@@ -3,7 +3,9 @@
 Of a load factor the side is known even where there is none: a structure that does not stand is below every target, one
 that no load brings down above it.
 
-A structure in time that falls is above every greatest displacement; one that does not stand at rest falls at once.
+A structure in time that falls is above every greatest displacement; one that does not stand at rest falls at once. One
+that has not fallen, but still moves far where its duration ends, tells nothing of falls
+(:mod:`mbla.solution.time_history.still_moves`).
 
 That the dead load is just carried is asked by the greatest pressure that is carried with it in all joints, which passes
 through zero there (:mod:`mbla.solution.further.geometric_safety.joint_pressure`).
@@ -35,6 +37,7 @@ from mbla.solution.solution import Checks, Standing, StandingResult, Status
 from mbla.solution.standing.standing import standing_where_carried
 from mbla.solution.thresholds import SOLVED_RESIDUAL
 from mbla.solution.time_history.step_rows import HistoryEnd
+from mbla.solution.time_history.still_moves import still_moves
 from mbla.sweeps.find.question import FindQuestion
 
 SAME = 1e-7
@@ -171,7 +174,8 @@ def _farther(result: float, bounds: tuple[float, float]) -> float:
 # --- structures in time ---------------------------------------------------------------------------------------------
 
 CUT_OFF = "it moved as far as stop.displacement allows, and might have {} otherwise: give it more"
-FELL, STOOD = "falls", "does not fall"
+MOVES_ON = "a time history that ends while the structure still moves tells nothing of falls: give a longer duration"
+FELL, STOOD, MOVED = "falls", "does not fall", "still moves"
 """status of a structure that was followed in time"""
 
 
@@ -190,6 +194,9 @@ def _moved(deck: Deck, question: FindQuestion, structure: LoadedAssembly, x: flo
     if case.solution.further.time_history.end is HistoryEnd.DISPLACED and (question.kind == "falls" or over < 0.0):
         words = CUT_OFF.format("fallen" if question.kind == "falls" else "moved further")
         return Evaluation(x, STOOD, verified, found.peak, words=words)
+    moves = still_moves(structure.assembly.model.of_case(case.load_case), case.solution.further.time_history)
+    if moves and question.kind == "falls":
+        return Evaluation(x, MOVED, verified, found.peak, words=MOVES_ON)
     return Evaluation(x, STOOD, verified, found.peak, over if question.kind == "peak" else -math.inf)
 
 

@@ -57,7 +57,13 @@ def test_falls() -> None:
 
 def test_still_moves_at_the_end() -> None:
     moving = replace(peaks(), residuals=np.array([0.0, 0.01, 0.0]), wanders=np.array([0.0, 0.02, 0.0]))
-    assert "still moves at the end, about 0.01 m (+- 0.02)" in told(peaks=moving)
+    assert "still moves at the end, about 0.01 m (+- 0.02); no block has fallen" in told(peaks=moving)
+
+
+def test_moves_on_slowly_beyond_its_unstable_equilibrium() -> None:
+    """It is displaced most in the last step, where it has lost most of its kinetic energy."""
+    moving = replace(peaks(), times=np.array([0.0, 4.0, 0.0]))
+    assert "still moves at the end, about 0.001 m (+- 0.0002); no block has fallen" in told(peaks=moving)
 
 
 def test_a_peak_that_depends_on_the_step_is_a_range() -> None:
