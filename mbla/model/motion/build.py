@@ -131,16 +131,16 @@ def _record(motion: MotionSection, path: KeyPath, site: LoadSite) -> Iterator[Ba
     count = record.values.shape[1]
     for column, along in zip(range(count), given, strict=False):
         raw = Signal(record.times, factor * record.values[:, column])
-        signal = _corrected(raw, motion, path, site)
-        if signal is None:
+        corrected = _corrected(raw, motion, path, site)
+        if corrected is None:
             return
         direction = unit(vector_of(along))
-        signal = signal.times_factor(motion.scale).later(motion.start)
+        signal = corrected.times_factor(motion.scale).later(motion.start)
         words = motion.file + (f", column {motion.columns[column - count]}" if motion.columns and count > 1 else "")
         words += f" x {motion.scale:g}" * (motion.scale != 1.0)
         words += f", baseline {motion.baseline}" * (motion.baseline != "none")
         words += f", along {vector(direction)}, peak {_in_g(signal.peak, site)}"
-        remark_on_motion(words, raw.peak, site, raw if motion.baseline == "none" else None)
+        remark_on_motion(words, raw.peak, site, raw, corrected)
         yield BaseMotion(words + _from(motion.start), signal, direction, motion.file)
 
 

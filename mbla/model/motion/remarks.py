@@ -21,6 +21,8 @@ LEFT_OVER = 0.05
 """of the peak velocity, at the end of a record"""
 AT_ITS_END = 0.99
 """of the peak displacement, at the end of a record"""
+CORRECTED = 0.05
+"""of the peak, by which a correction of the baseline changes accelerations: those of records are small errors"""
 UNEVEN = 1e-3
 """difference of steps, relative to the longest"""
 ROUNDING = 1e-9
@@ -63,26 +65,48 @@ def refuse_late_start(
         site.refuse(Finding("time-history-without-effect", words, *path, key))
 
 
-def remark_on_motion(words: str, peak: float, site: LoadSite, raw: Signal | None = None) -> None:
-    """A peak that no base has, before its scale, and a baseline that carries the base away.
+def remark_on_motion(
+    words: str, peak: float, site: LoadSite, raw: Signal | None = None, corrected: Signal | None = None
+) -> None:
+    """A peak that no base has, before its scale, and a baseline that carries the base away, or takes much to correct.
 
-    raw : of a record whose baseline is not corrected
+    raw, corrected : of a record, the same where its baseline is not corrected
     """
     in_g = peak / site.units.standard_gravity
     if not WEAKEST <= in_g <= STRONGEST:
         what = "stronger than any earthquake" if in_g > STRONGEST else "too weak to move masonry"
         site.warn("motion-unit", f"{words}: its peak before scale is {in_g:.3g} g, {what}: unit?")
-    if raw is None:
+    if raw is None or corrected is None:
         return
+    if corrected is raw:
+        _remark_on_baseline(words, raw, site)
+    else:
+        _remark_on_correction(words, raw, corrected, site)
+
+
+def _remark_on_baseline(words: str, raw: Signal, site: LoadSite) -> None:
+    """A base that does not come to rest, or is farthest away at the end."""
     end = raw.times[-1]
     velocity, displacement = abs(float(raw.integral(end))), abs(float(raw.second_integral(end)))
-    remedy = "baseline: linear or highpass brings the base to rest"
+    remedy = "may be meant, a pulse leaves the base displaced; else baseline: linear or highpass brings it to rest"
     if velocity > LEFT_OVER * raw.peak_integral:
         share = f"{velocity / raw.peak_integral:.0%} of its greatest"
         site.warn("motion-baseline", f"{words}: the velocity at its end is {share}: {remedy}")
     elif displacement > AT_ITS_END * raw.peak_second_integral:
         size = f"{displacement:.3g} {site.units.length}"
         site.warn("motion-baseline", f"{words}: it drifts, its displacement is greatest at its end, {size}: {remedy}")
+
+
+def _remark_on_correction(words: str, raw: Signal, corrected: Signal, site: LoadSite) -> None:
+    """A correction that changes accelerations by more than a small share of the peak: it makes another motion."""
+    change = float(np.abs(corrected.value(corrected.times) - raw.value(corrected.times)).max())
+    if change > CORRECTED * raw.peak:
+        by, before, after = (
+            f"{each / site.units.standard_gravity:.3g} g" for each in (change, raw.peak, corrected.peak)
+        )
+        says = f"its baseline changes accelerations by up to {by}, {change / raw.peak:.0%} of the peak, which goes"
+        says += f" from {before} to {after}"
+        site.warn("motion-baseline-large", f"{words}: {says}: if the base is left displaced, baseline: none")
 
 
 def remark_on_step(name: str, section: TimeHistorySection, built: TimeHistory, site: LoadSite) -> None:

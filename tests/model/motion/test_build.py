@@ -143,6 +143,30 @@ def test_a_corrected_baseline(tmp_path: Path) -> None:
     assert remarks(plain) == [("warning", "motion-baseline")]
 
 
+@pytest.mark.parametrize(
+    ("baseline", "change", "peak"), [("linear", "0.191 g, 64%", "0.191 g"), ("highpass", "0.205 g, 68%", "0.165 g")]
+)
+def test_a_correction_that_is_as_large_as_the_record(tmp_path: Path, baseline: str, change: str, peak: str) -> None:
+    """A half sine less its mean; uneven times, one of them twice, make none where nothing is to be corrected."""
+    record(tmp_path, 0.3 * np.sin(np.pi * TIMES / 4.0))
+    (notice,) = model(tmp_path, f"motion: {{file: record.csv, unit: g, direction: x, baseline: {baseline}}}").notices
+    assert (notice.severity, notice.identifier) == ("warning", "motion-baseline-large")
+    says = f"changes accelerations by up to {change} of the peak, which goes from 0.3 g to {peak}"
+    assert notice.message.endswith(f"{says}: if the base is left displaced, baseline: none")
+    record(tmp_path, np.r_[0.0, 0.1, -0.1, 0.0, 0.0, -0.1, 0.1, 0.0], np.r_[0.0, 1.0, 1.0, 2.0, 3.0, 4.0, 4.0, 5.0])
+    found = model(tmp_path, "motion: {file: record.csv, unit: g, direction: x, baseline: linear}")
+    assert "motion-baseline-large" not in [identifier for _, identifier in remarks(found)]
+
+
+def test_a_baseline_that_may_be_meant(tmp_path: Path) -> None:
+    record(tmp_path, 0.3 * np.sin(np.pi * TIMES / 4.0))
+    (notice,) = model(tmp_path, "motion: {file: record.csv, unit: g, direction: x}").notices
+    assert notice.identifier == "motion-baseline"
+    assert notice.message.endswith(
+        "may be meant, a pulse leaves the base displaced; else baseline: linear or highpass brings it to rest"
+    )
+
+
 def test_forces_over_time(tmp_path: Path) -> None:
     written(tmp_path, "0;0\n1;2,5\n2;0\n", "force.csv")
     on = "on: {group: wall, index: 1}"
