@@ -270,7 +270,7 @@ def scenes() -> Iterator[Scene]:
     yield Scene("two blocks, 0.4 g, residual of the top", "m", "", "", two_blocks_residual(0.4))
     for stiffness in (1e10, 1e12):
         words = "LMGC90 12.66–12.80; rigid 12.35"
-        yield Scene(f"arch, crown, k_N {stiffness:.0e}", "mm", words, "own runs, DYNAMICS", arch(stiffness))
+        yield Scene(f"arch, crown, k_N {stiffness:.0e}", "mm", words, "own runs", arch(stiffness))
     for duration, others in COLUMN.items():
         words = " ".join(f"{value:g}" for value in others)
         yield Scene(f"column falls, t_p {duration:g} s", "g", words, "UDEC, HybriDFEM, LMGC90", column(duration))
