@@ -36,7 +36,7 @@ from mbla.sweeps.answers import Answer, Answers, answers_of, numbers_of
 from mbla.sweeps.design.design import header_of
 from mbla.sweeps.file.content import FALLS, FragilitySection
 from mbla.sweeps.plan import Plain
-from mbla.sweeps.results import FALLEN, IN_TIME
+from mbla.sweeps.results import FALLEN, IN_TIME, MOVES
 from mbla.sweeps.tables.sweep_table import SweepTable, as_text
 
 SAME = 1e-6
@@ -133,7 +133,8 @@ def reached(values: FloatArray, threshold: float, upwards: bool) -> BoolArray:
 def beyond(table: SweepTable, answers: Answers) -> tuple[BoolArray, BoolArray]:
     """Points that pass every limit, and those whose place is unknown; (n_points,) each.
 
-    A structure in time passes them where a block of it falls, and where it does not stand at rest.
+    A structure in time passes them where a block of it falls, and where it does not stand at rest; one whose history
+    ends while it still moves may pass those that it has not reached, which is known where the results have that.
     """
     column = answers.column
     if not column.path.startswith(IN_TIME):
@@ -142,7 +143,10 @@ def beyond(table: SweepTable, answers: Answers) -> tuple[BoolArray, BoolArray]:
     past = answers.of(Answer.NO_EQUILIBRIUM)
     if FALLEN in own:
         past = past | (answers.good & (numbers_of(own[FALLEN], table[own[FALLEN].name]) > 0))
-    return past, ~answers.good & ~past
+    unknown = ~answers.good
+    if MOVES in own:
+        unknown = unknown | (numbers_of(own[MOVES], table[own[MOVES].name]) > 0)
+    return past, unknown & ~past
 
 
 def interval(below: int, unknown: int, points: int, confidence: float) -> tuple[float, float]:
@@ -183,7 +187,7 @@ NOT_INDEPENDENT = (
     "wide for these, and not guaranteed"
 )
 UNKNOWN = (
-    "points without a verified answer are unknown: they are counted both as below and as above a {}, and the "
+    "points without a verified answer{} are unknown: they are counted both as below and as above a {}, and the "
     "interval holds both"
 )
 
@@ -203,7 +207,8 @@ def fragility_lines(found: Sequence[Mapping[str, Any]], of: SweepTable) -> list[
         lines += sentence(AS_DRAWN)
     elif sampling != "random":
         lines += sentence(NOT_INDEPENDENT.format(sampling.replace("_", " ")))
-    words = UNKNOWN.format("limit" if found[0]["limits"] else "demand")
+    limits = bool(found[0]["limits"])
+    words = UNKNOWN.format(", and those that still move at their end," * limits, "limit" if limits else "demand")
     return lines + (sentence(words) if any(one["unknown"] for one in found) else [])
 
 
@@ -258,7 +263,11 @@ def fragility_keys(place: str) -> tuple[Key, ...]:
         Key(f"{place}[].confidence", "number", "of the intervals"),
         Key(f"{place}[].points", "integer", "points of the sample"),
         Key(f"{place}[].left_out", "integer", "more of it, left out by constraints"),
-        Key(f"{place}[].unknown", "integer", "those without a verified answer"),
+        Key(
+            f"{place}[].unknown",
+            "integer",
+            "those without a verified answer, and by limits those that still move at the end",
+        ),
         Key(f"{place}[].demands", "list", "in the order of the sweep file; empty where limits are given"),
         Key(f"{place}[].demands[]", "object", "a demand"),
         Key(f"{place}[].demands[].demand", "number", "the demand"),

@@ -33,8 +33,9 @@ FACTORS = (
 )
 """results that are load factors: they have a place on their axis for a structure that does not stand, and for one that
 no load brings down, which their status says"""
-IN_TIME, FALLEN = "time_history.", "time_history.fallen"
-"""how paths of structures in time begin; how many of its blocks fall: with one it passes every limit"""
+IN_TIME, FALLEN, MOVES = "time_history.", "time_history.fallen", "time_history.still_moves"
+"""how paths of structures in time begin; how many of its blocks fall: with one it passes every limit; whether it ends
+while it still moves: then it may pass those that it has not reached"""
 UNBOUNDED = "unbounded"
 """status of a position that nothing brings down: others may still be the worst"""
 

@@ -65,6 +65,23 @@ TABLE = shaken(
 )
 
 
+def test_what_still_moves_at_its_end_may_fall_later() -> None:
+    """It is unknown for limits that it has not reached."""
+    outcomes = [("a", 0.05, 0, True), ("b", 0.2, 0, True), ("c", 0.05, 0, False), ("d", 0.4, 1, False)]
+    names, paths = [name for name, *_ in outcomes], (*RESULTS, "time_history.still_moves")
+    points, design = dict[str, PointOutcome](), list[DesignPoint]()
+    for place, (name, *values) in enumerate(outcomes):
+        results = dict(zip(paths, ("solved", *values), strict=True))
+        points[name] = PointOutcome(name, DONE, 0, "", results, 1, 0.1)
+        design.append(DesignPoint(place + 1, (place,), (f"{name}.csv",), {}))
+    column = SweepColumn("record", "", "record", "text", "parameter", "record")
+    made = Design((column,), (DesignDimension("record", 4),), tuple(design), (tuple(names),), 0)
+    table = sweep_table("", made, result_columns(paths, ("quake",), Units()), points, names)
+    (one,) = fragility_of(table, asked(table, over=None))
+    assert [each["passing"] for each in one["limits"]] == [2, 1]
+    assert [each["probability"] for each in one["limits"]] == [[0.5, 0.75], [0.25, 0.75]]
+
+
 def test_what_falls_passes_every_limit() -> None:
     """A limit is reached by what is on it; what does not stand falls at once; what was not solved is unknown."""
     found = fragility_of(TABLE, asked(TABLE))

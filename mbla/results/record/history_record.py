@@ -21,6 +21,7 @@ from mbla.results.record.objects import Object
 from mbla.results.record.scene import Scene
 from mbla.solution.time_history.history import RecordedHistories
 from mbla.solution.time_history.step_rows import StepRows
+from mbla.solution.time_history.still_moves import still_moves
 
 TIME_HISTORY = Object[Scene](
     *(quantity for quantity in RESULT.quantities if quantity.name != "seconds"),
@@ -78,6 +79,12 @@ _declare(
 _declare("falls", "str", "block that falls first, by half of its height", lambda scene, f: _block(scene, f.falls))
 _declare("fall_time", "float", "when it had", lambda _, f: f.fall_time, "time")
 _declare("fallen", "int", "blocks that have fallen", lambda _, f: f.fallen)
+_declare(
+    "still_moves",
+    "bool",
+    "whether it still moves far at its end, none having fallen: then whether one falls later is not known",
+    lambda scene, _: still_moves(scene.model, scene.solved.solution.further.time_history),
+)
 _declare("opening", "float", "greatest opening of an interface", lambda _, f: f.opening, "length")
 _declare("slip", "float", "greatest slip of an interface", lambda _, f: f.slip, "length")
 _declare("lasted", "float", "how long it was followed", lambda _, f: f.lasted, "time")
