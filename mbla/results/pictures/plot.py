@@ -70,6 +70,8 @@ def pictures_of(results: Results, cases: Sequence[CaseResult], options: PictureO
         drawn = {"model"} if curve else {"model", "curve"}
         if case.load_case.name != case.load_case.deck_name == options.case:
             drawn.add("history")  # of all positions, below
+        if case.load_case.time_history is not None and "curve" in options.kinds:
+            drawn.add("history")  # its curves, drawn once
         for kind in (kind for kind in options.kinds if kind not in drawn):
             name = names[case.load_case.name] if kind == "mechanism" else f"_{case.load_case.name}_{kind}"
             pictures.append(PictureFile(name, of(case, kind)))
@@ -130,11 +132,13 @@ def _check_name(target: Path, options: PictureOptions) -> None:
 def draw_picture(path: Path, scene: PictureScene, kind: str, options: PictureOptions) -> None:
     """Write one picture: a diagram of the history, a plane figure where that can show the case, else an image.
 
+    The history of a structure in time is its curves: no cone program has iterations there.
+
     Raises as ``plot_case`` does.
     """
     if kind in ("history", "curve"):
         in_time = scene.case.load_case.time_history is not None
-        draw = draw_history if kind == "history" else draw_time_history if in_time else draw_curve
+        draw = draw_time_history if in_time else draw_history if kind == "history" else draw_curve
         draw(path, scene, options)
         return
     drawing.draw_picture(path, scene, kind, options)

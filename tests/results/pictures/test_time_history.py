@@ -35,6 +35,17 @@ def test_it_has_a_curve(results: Results, tmp_path: Path) -> None:
     assert "_shaken_curve" in [picture.name for picture in every]
 
 
+def test_its_history_is_its_curves(results: Results, tmp_path: Path) -> None:
+    drawn = [
+        plot_results(results, tmp_path / kind, "tower", PictureOptions(kinds=(kind,), size=(900, 600), format="svg"))[0]
+        for kind in ("history", "curve")
+    ]
+    assert [path.name for path in drawn] == ["tower_shaken_history.svg", "tower_shaken_curve.svg"]
+    assert "displacement" in drawn[0].read_text(encoding="utf-8")
+    every = pictures_of(results, results.cases, PictureOptions(kinds=("history", "curve")))
+    assert [picture.name for picture in every] == ["_shaken_curve"]
+
+
 def test_without_named_points_the_block_of_the_peak_is_drawn(results: Results, tmp_path: Path) -> None:
     (case,) = results.cases
     asked = case.load_case.time_history
