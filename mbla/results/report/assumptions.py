@@ -28,8 +28,9 @@ STILL = "Equilibrium is that of the geometry as drawn: displacements before coll
 MOVED = "; pushovers alone follow the structure as it moves"
 IN_TIME = (
     "In time blocks have their masses and joints are elastic: they press, open and slide without dilatancy, stiff as "
-    "the deck says. All supports move as one with the base. How strongly vibration is damped is an assumption, too; "
-    "near overturning small changes decide, and what one record does says little of others."
+    "the deck says. All supports move as one with the base; blocks are followed as far as they move. How strongly "
+    "vibration is damped is an assumption, too; near overturning small changes decide, and what one record does says "
+    "little of others."
 )
 
 
@@ -39,16 +40,17 @@ def assumptions(results: Results) -> list[str]:
     pushed = any(case.solution.further.pushover.curve for case in cases)
     in_time = any(case.load_case.time_history is not None for case in cases)
     multiplied = [case for case in cases if case.load_case.question.multiplies]
-    grounds = "Ground and fixed blocks are rigid and do not move, unless a load case says that a support gives way."
+    grounds = "Ground and fixed blocks are rigid and do not move, unless a load case says that a support gives way"
+    grounds += f"{'; in time they move as the base does' * in_time}."
     live = "The dead load acts in full. The live load grows in proportion, up to the load factor times what is given."
     said = [
         "Blocks are rigid and do not break: the structure opens, slides and crushes at its joints alone.",
         *(_joint_words(joint, f"{model.units.force}/{model.units.length}2") for joint in model.joints.values()),
-        *dict.fromkeys(SLIDING[case.solution.flow_rule] for case in cases),
+        *dict.fromkeys(SLIDING[case.solution.flow_rule] for case in cases if case.load_case.time_history is None),
         *([BY_PATH] if any(case.by_path for case in cases) else []),
         grounds,
         *([live] if multiplied else []),
-        f"{STILL}{MOVED * pushed}." if multiplied or not in_time else "",
+        f"{STILL}{MOVED * pushed}." if any(case.load_case.has_load_factor for case in cases) or not in_time else "",
         IN_TIME if in_time else "",
         "Strengths, friction and loads count as given: no partial factor is applied to them but those of a code that "
         "is named.",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -10,7 +11,7 @@ from mbla.results.explanations import Explanation, explanations
 from mbla.results.listing.answers import answer_columns, bound_figures, status_words
 from mbla.results.listing.blocks import Block, ListingSection
 from mbla.results.listing.listing import case_sections
-from mbla.results.outcome import case_notices, result_of
+from mbla.results.outcome import answer_of, case_notices, result_of
 from mbla.results.report.figures import ReportFigures
 from mbla.results.results import CaseResult, Results
 from mbla.solution.solution import Status
@@ -89,14 +90,16 @@ def case_content(results: Results, case: CaseResult, number: int, figures: Repor
 
 
 def tone_of(case: CaseResult) -> str:
-    """``good``: a verified load factor; ``fair``: approximate; ``open``: any live load is borne; else ``bad``."""
-    if result_of(case) is None:
+    """``good``: a verified answer; ``fair``: approximate; ``open``: any live load is borne; else ``bad``."""
+    if not _answered(case):
         return "open" if case.status is Status.UNBOUNDED and case.checks.verified else "bad"
     return "good" if case.status is Status.SOLVED else "fair"
 
 
 def alarm_of(case: CaseResult) -> str:
-    """Warning at the head of a case without a verified load factor."""
+    """Warning at the head of a case without a verified answer."""
+    if not case.load_case.has_load_factor:
+        return _alarm_in_time(case)
     if result_of(case) is not None:
         return "" if case.status is Status.SOLVED else "the load factor is known to about 1 % only."
     if case.status is Status.NO_EQUILIBRIUM:
@@ -106,6 +109,20 @@ def alarm_of(case: CaseResult) -> str:
     if case.solution.mechanics is None:
         return "there is no load factor."
     return "no load factor; figures, forces and mechanism below are those of the best iterate, not a result."
+
+
+def _answered(case: CaseResult) -> bool:
+    """Whether there is a figure that is a result."""
+    return result_of(case) is not None or not math.isnan(answer_of(case))
+
+
+def _alarm_in_time(case: CaseResult) -> str:
+    """Of a structure that moves in time, or vibrates."""
+    if _answered(case):
+        return "" if case.status is Status.SOLVED else "figures are approximate."
+    if case.status is Status.NO_EQUILIBRIUM:
+        return "the structure does not stand under its dead load."
+    return "figures below, where there are any, are not a result."
 
 
 # --- The table at the head of a report: every load case with its status, answer and bounds --------------------------
@@ -123,10 +140,16 @@ class VerdictRow:
 
 
 def verdict_table(results: Results) -> tuple[list[str], list[VerdictRow]]:
-    """Heads of the columns of figures, and a row for every case; the associative answers with their bounds."""
+    """Heads of the columns of figures, and a row for every case; the associative answers with their bounds.
+
+    These only where a case has a load factor.
+    """
     heads, figures = answer_columns(results.model, results.cases)
+    bounded = any(case.load_case.has_load_factor for case in results.cases)
+    if not bounded:
+        heads, figures = heads[:-1], [row[:-1] for row in figures]
     rows = []
     for place, (case, own) in enumerate(zip(results.cases, figures, strict=True), start=1):
-        values = (*own, *bound_figures(case))
+        values = (*own, *(bound_figures(case) if bounded else ()))
         rows.append(VerdictRow(f"case-{place}", case.load_case.name, status_words(case.status), tone_of(case), values))
-    return [*heads, "static bound", "kinematic bound"], rows
+    return [*heads, *(("static bound", "kinematic bound") if bounded else ())], rows

@@ -109,7 +109,10 @@ def _content(results: Results, shown: Results, detailed: Results, cases: list[Ca
         "version": results.provenance.get("mbla", __version__),
         "heads": heads,
         "verdicts": verdicts,
-        "settles": any(not case.load_case.question.multiplies for case in detailed.cases),
+        "bounded": any(case.load_case.has_load_factor for case in detailed.cases),
+        "settles": any(
+            case.load_case.has_load_factor and not case.load_case.question.multiplies for case in detailed.cases
+        ),
         "warnings_words": _warning_words(shown),
         "verdict_words": [_in_words(detailed, case) for case in detailed.cases],
         "left_out": f"{counted(left_out, 'load case')} of the deck not shown here" if left_out else "",

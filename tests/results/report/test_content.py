@@ -6,10 +6,13 @@ import numpy as np
 import pytest
 
 from mbla.results.listing.sections.figures import residual_rows
+from mbla.results.report.assumptions import STILL, assumptions
+from mbla.results.report.content import alarm_of, tone_of, verdict_table
 from mbla.results.results import CaseResult
-from mbla.solution.solution import Checks
+from mbla.solution.solution import Checks, Status
 from mbla.solution.verification.residuals import Residuals
 from mbla.solution.verification.verify_points import Bounds, failures_of, tolerances
+from tests.results.rocking import rocking_case
 from tests.results.synthetic import tower_results
 
 JUDGED = {
@@ -56,3 +59,27 @@ def test_every_tolerance_has_its_row() -> None:
     assert set(tolerances("associative")) <= set(Checks.__dataclass_fields__)
     assert np.isnan(tower_results().cases[1].checks.gap)
     assert residual_rows(tower_results().cases[1]) == []
+
+
+def test_a_structure_in_time_has_an_answer_although_it_has_no_load_factor() -> None:
+    results = tower_results()
+    case = rocking_case(results.cases[0])
+    alone = replace(results, cases=(case,))
+    assert (alarm_of(case), tone_of(case)) == ("", "good")
+    heads, (row,) = verdict_table(alone)
+    assert heads == ["peak displacement [m]"]
+    assert len(row.figures) == 1
+    assert "static bound" in verdict_table(replace(results, cases=(case, *results.cases)))[0]
+    falls = replace(case, status=Status.NO_EQUILIBRIUM)
+    assert alarm_of(falls) == "the structure does not stand under its dead load."
+    assert tone_of(falls) == "bad"
+
+
+def test_what_is_taken_for_granted_of_a_structure_in_time() -> None:
+    results = tower_results()
+    case = rocking_case(results.cases[0])
+    words = " ".join(assumptions(replace(results, cases=(case,))))
+    assert STILL not in words
+    assert "in time they move as the base does" in words
+    assert "slides without lifting" not in words
+    assert STILL in " ".join(assumptions(replace(results, cases=(case, *results.cases))))
