@@ -14,6 +14,7 @@ import pytest
 from mbla.process.run_options import RunOptions
 from mbla.results.collapse.motion import SHARE_OF_SIZE, movable_size
 from mbla.results.hdf5.result_file import read_results_hdf5
+from mbla.results.listing.answers import answer_columns
 from mbla.results.outcome import answer_of
 from mbla.results.results import Results
 from mbla.results.tables.tables import tables_of
@@ -39,6 +40,13 @@ def test_the_first_period_is_the_answer_of_a_load_case_that_asks_nothing_else(wa
     assert len(case.solution.further.modes) == 6
     assert len(other.solution.further.modes) == 1
     assert wall[0].exit_code == 0
+
+
+def test_a_table_has_the_first_periods_of_all(wall: tuple[Results, Path]) -> None:
+    heads, rows = answer_columns(wall[0].model, wall[0].cases)
+    column = heads.index("first period [s]")
+    assert rows[0][column] == rows[1][column] != ""
+    assert rows[1].count("") == 0
 
 
 def test_files_hold_them(wall: tuple[Results, Path]) -> None:

@@ -9,6 +9,7 @@ import numpy as np
 
 from mbla.model.model import LoadCase, Model
 from mbla.questions.figures import significant
+from mbla.questions.modes import FirstPeriod
 from mbla.questions.travel_position import TravelPosition
 from mbla.results.force_range import ForceRange
 from mbla.results.listing.blocks import GAP, Fact, ListingSection, Paragraph, apart, table_of
@@ -60,6 +61,7 @@ def bound_figures(case: CaseResult) -> tuple[str, str]:
 def answer_columns(model: Model, cases: Sequence[CaseResult]) -> tuple[list[str], list[list[str]]]:
     """Heads and, for each case, figures: of every kind of answer, the least found, the associative.
 
+    Where modes are some case's answer, those beside the answers of others are in that column as well.
     The least is there where a search was made for some case.
     """
     answers = list(dict.fromkeys(case.load_case.question.head(model.units) for case in cases))
@@ -71,10 +73,17 @@ def answer_columns(model: Model, cases: Sequence[CaseResult]) -> tuple[list[str]
             for found in (result_of(case), associative_of(case))
         )
         own = own if case.load_case.has_load_factor else number(answer_of(case))
-        figures = [own if head == case.load_case.question.head(model.units) else "" for head in answers]
+        known = _first_period(model, case) | {case.load_case.question.head(model.units): own}
+        figures = [known.get(head, "") for head in answers]
         least = [answer_figure(case.load_case, least_of(case))] if several else []
         rows.append([*figures, *least, associative])
     return [*answers, *([LEAST] if several else []), "associative"], rows
+
+
+def _first_period(model: Model, case: CaseResult) -> dict[str, str]:
+    """By the head of its column; nothing without modes that are verified."""
+    modes = case.solution.further.modes
+    return {FirstPeriod().head(model.units): number(modes.period)} if modes.verified else {}
 
 
 LEAST = "least found"

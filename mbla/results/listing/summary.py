@@ -95,7 +95,7 @@ def _table(model: Model, cases: Sequence[CaseResult]) -> list[Block]:
     if not cases:
         return []
     heads, rows = answer_columns(model, cases)
-    if all(case.solution.flow_rule == "associative" or case.load_case.time_history is not None for case in cases):
+    if all(case.solution.flow_rule == "associative" or not case.load_case.has_load_factor for case in cases):
         heads.pop()
     rows = [
         [case.load_case.name, status_words(case.status), *row[: len(heads)]]

@@ -176,7 +176,7 @@ def _without_figures(case: CaseResult) -> str:
         words = question.unbounded
         return words if decided else f"{words} by associative flow; undecided for the flow rule of the deck"
     if case.status is Status.NOT_VERIFIED:
-        return "NOT VERIFIED: no load factor"
+        return f"NOT VERIFIED: no {'load factor' if case.load_case.has_load_factor else question.title}"
     return f"NOT SOLVED ({_stopped(case)})"
 
 

@@ -27,7 +27,8 @@ def modes_words(case: CaseResult) -> str:
         return next((str(each) for each in case.solution.remarks if each.identifier == "no-modes"), "")
     along = int(modes.masses[0].argmax())
     share = f"{100.0 * modes.masses[0, along]:.3g} % of the mass takes part along {'xyz'[along]}"
-    said = f"vibrates with a first period of {number(modes.period)} s, {number(float(modes.frequencies[0]))} Hz"
+    said = "" if modes.verified else "modes are NOT verified: "
+    said += f"vibrates with a first period of {number(modes.period)} s, {number(float(modes.frequencies[0]))} Hz"
     return f"{said}, in which {share if modes.masses[0, along] > SMALL else 'no mass takes part on the whole'}"
 
 
