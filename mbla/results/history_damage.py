@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mbla.arrays import BoolArray
+from mbla.arrays import BoolArray, FloatArray
 from mbla.model.model import Model
 from mbla.model.ties.ties import Ties
 from mbla.solution.time_history.frames import Frames, PointSet
@@ -70,7 +70,7 @@ def _ties_of(frames: Frames, number: int) -> set[int]:
     return set(points.laws[points.bodies[:, 0] < 0].tolist())
 
 
-def _at_capacity(ties: Ties, points: PointSet, forces: np.ndarray, of_ties: BoolArray) -> list[int]:
+def _at_capacity(ties: Ties, points: PointSet, forces: FloatArray, of_ties: BoolArray) -> list[int]:
     """Rows of ties, other than fill, whose force, (n_points,) of all points, is the greatest in a sense they take."""
     rows = points.laws[of_ties]
     if not len(rows):
