@@ -56,6 +56,22 @@ load_cases:
   drive: {live: [{travel: {force: [1000, 0, -1000], path: [[1.5, 0.5, 1.5], [2, 0.5, 1.5]], positions: 2}}]}
   thrust: {objective: {force: {on: beam, from: left, direction: [0, 0, 1]}}}
 """
+IN_TIME = """\
+mbla: 1
+materials: {stone: {density: 2000}}
+joints: {dry: {friction: 0.6}}
+contacts: {joint: dry}
+blocks: [{box: {group: a, material: stone, min: [0, 0, 0], max: [1, 1, 1]}}]
+supports: [{ground: {z: 0}}]
+load_cases:
+  shake:
+    modes: 1
+    time_history:
+      motion: {pulse: half_sine, amplitude: 0.3 g, duration: 0.02, direction: x}
+      duration: 0.04
+      check: true
+      record: {points: {top: {on: a}}, interfaces: {foot: {between: [a, ground]}}}
+"""
 COHESIVE = BACKFILL.replace("friction_angle: 30", "friction_angle: 30, cohesion: 10 kPa, tensile_strength: 5 kPa")
 SOIL = TEXT.format(blocks=f"  - {WALL}\n  - {COHESIVE}", contacts="", supports=GROUND, fill="")
 JSON_TYPES: dict[str, tuple[type, ...]] = {
@@ -67,8 +83,13 @@ JSON_TYPES: dict[str, tuple[type, ...]] = {
     "list": (list,),
     "any": (int, float, str, bool),
 }
-OF_LARGER_RUNS = ("cases[].mechanism.cracks[]", "cases[].mechanism.yield_lines[]", "cases[].assessment.figures[]")
-"""keys whose lists are empty here: ``test_files_of_runs`` has runs that fill them"""
+OF_LARGER_RUNS = (
+    *("cases[].mechanism.cracks[]", "cases[].mechanism.yield_lines[]", "cases[].assessment.figures[]"),
+    *("cases[].time_history.broken_ties", "cases[].time_history.yielded_ties"),
+)
+"""keys whose lists are empty here: ``test_files_of_runs`` and ``test_history_damage`` have runs that fill them"""
+OF_RECORDS = ("fragility[].limits[]", "fragility_curves[]")
+"""keys of a sweep over records: ``tests/sweeps/test_fragility_in_time.py`` has such"""
 
 
 @pytest.fixture(scope="module")
@@ -76,12 +97,13 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Folder with the decks of small runs, the results of two of them, and results in which everything has a value."""
     folder = tmp_path_factory.mktemp("runs")
     decks = {"deck": BLOCK + FOUND, "ledge": LEDGE, "lonely": LONELY, "sweep": SWEEP}
-    for name, deck in (decks | {"pushed": PUSHED, "questions": QUESTIONS, "soil": SOIL}).items():
+    for name, deck in (decks | {"pushed": PUSHED, "questions": QUESTIONS, "soil": SOIL, "in_time": IN_TIME}).items():
         (folder / f"{name}.yaml").write_text(deck, encoding="utf-8")
     with chdir(folder):
         assert main(["run", "pushed.yaml"]) == 0
         assert main(["run", "questions.yaml"]) == 0
         assert main(["run", "soil.yaml"]) == 0
+        assert main(["run", "in_time.yaml"]) == 0
     write_outputs(full_results(), folder / "tower.out", "tower", force=False, output=OutputSection(vtu=False))
     return folder
 
@@ -129,7 +151,7 @@ def unseen(known: Keys, *records: dict[str, Any]) -> set[str]:
 
 
 def test_json_of_runs_and_checks(folder: Path, answered: Any) -> None:
-    paths = [folder / f"{name}.out" / f"{name}.json" for name in ("tower", "pushed", "questions", "soil")]
+    paths = [folder / f"{name}.out" / f"{name}.json" for name in ("tower", "pushed", "questions", "soil", "in_time")]
     runs = [json.loads(path.read_text(encoding="utf-8")) for path in paths]
     checked = [answered("check", "deck.yaml"), answered("check", "lonely.yaml")]
     without = unseen(keys_of("JSON record"), *runs, *checked)
@@ -153,7 +175,7 @@ def test_json_of_find(answered: Any) -> None:
 def test_table_and_record_of_a_sweep(folder: Path, answered: Any) -> None:
     record = answered("sweep", "sweep.yaml")
     without = unseen(keys_of("JSON record of a sweep"), record)
-    assert {key for key in without if not key.startswith("notices[]")} <= {"design.places[]"}
+    assert {key for key in without if not key.startswith(("notices[]", *OF_RECORDS))} <= {"design.places[]"}
     with (folder / "sweep.out" / "sweep.csv").open(encoding="utf-8", newline="") as file:
         head = [re.sub(r" \[.*\]$", "", name) for name in next(csv.reader(file))]
     told = [name for name, *_ in table("Table of a sweep")]
