@@ -18,7 +18,7 @@ from mbla.sweeps.design.design import Design, DesignDimension, DesignPoint, Swee
 from mbla.sweeps.file.content import FragilitySection
 from mbla.sweeps.fragility import Asked, asked_of, fragility_csv, fragility_lines, fragility_of
 from mbla.sweeps.fragility_curve import curve_lines, fragility_curves, lognormal_fit, probability
-from mbla.sweeps.plan import DONE, FAILED, PointOutcome
+from mbla.sweeps.plan import DONE, FAILED, Plain, PointOutcome
 from mbla.sweeps.results import result_columns
 from mbla.sweeps.tables.sweep_table import SweepTable, sweep_table
 
@@ -71,7 +71,7 @@ def test_what_still_moves_at_its_end_may_fall_later() -> None:
     names, paths = [name for name, *_ in outcomes], (*RESULTS, "time_history.still_moves")
     points, design = dict[str, PointOutcome](), list[DesignPoint]()
     for place, (name, *values) in enumerate(outcomes):
-        results = dict(zip(paths, ("solved", *values), strict=True))
+        results: dict[str, Plain] = dict(zip(paths, ("solved", *values), strict=True))
         points[name] = PointOutcome(name, DONE, 0, "", results, 1, 0.1)
         design.append(DesignPoint(place + 1, (place,), (f"{name}.csv",), {}))
     column = SweepColumn("record", "", "record", "text", "parameter", "record")
