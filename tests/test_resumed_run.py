@@ -115,6 +115,7 @@ def test_what_cannot_be_resumed(deck: Path, capsys: pytest.CaptureFixture[str]) 
     assert cli.main(["run", "block.yaml", "--resume", "-q"]) == 0
 
 
+@pytest.mark.long
 def test_stopped_while_it_is_followed_with_half_of_the_step(deck: Path) -> None:
     text = SHAKEN.replace("step: 0.005", "step: 0.005\n      check: true").replace("duration: 0.6", "duration: 0.4")
     deck.write_text(text, encoding="utf-8")

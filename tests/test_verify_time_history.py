@@ -151,6 +151,7 @@ def test_a_status_that_is_not_that_of_the_history(rocks: Results, tmp_path: Path
     assert "quake: the load case is approximate, its time history is solved" in said
 
 
+@pytest.mark.long
 def test_half_of_the_step_is_confirmed_by_following_it_anew_alone(tmp_path: Path) -> None:
     results = run_of(tmp_path, "      check: true\n")
     found, said = said_of(tmp_path, results)
@@ -166,6 +167,7 @@ def test_half_of_the_step_is_confirmed_by_following_it_anew_alone(tmp_path: Path
     assert "quake: followed anew, the structure in time comes to others: what half of the step comes to" in said
 
 
+@pytest.mark.long
 def test_a_history_that_the_time_limit_cut_off(tmp_path: Path) -> None:
     """What it has is verified, why it ends not; followed anew as far, it comes to the same."""
     limit, long = "analysis: {time_limit: 4}\n", "load_cases.quake.time_history.duration=60"

@@ -25,6 +25,7 @@ def recorded(scene: str, point: str, joints: str) -> Mapping[str, str]:
     return ROWS[scene, point, other_joints(scene, joints), LMGC90, f"{1e3 * STEPS[-1]:g}", "1"]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("name", "joints"), CASES, ids=[name for name, _ in CASES])
 def test_peaks(name: str, joints: str) -> None:
     scene = SCENES[name]()

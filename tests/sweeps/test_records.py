@@ -54,6 +54,7 @@ def sweep(tmp_path: Path) -> Path:
     return path
 
 
+@pytest.mark.long
 def test_records_and_scales(sweep: Path) -> None:
     """Below b/h = 0.2 g it does not rock. A record that was changed is another point; the others stay."""
     table = mbla.sweep(sweep, jobs=2)

@@ -23,6 +23,7 @@ def test_a_sudden_lasting_acceleration() -> None:
     assert spectrum.pseudo_acceleration.max() <= 2.0 * over * (1.0 + 1e-12)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("damping", [0.0, 0.02, 0.2])
 def test_resonance_and_what_is_beside_it(damping: float) -> None:
     """Against a Runge-Kutta method of eighth order."""

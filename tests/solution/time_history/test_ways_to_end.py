@@ -48,6 +48,7 @@ def test_what_does_not_stand_is_not_followed(tmp_path: Path) -> None:
     assert "does not stand" in case.reason
 
 
+@pytest.mark.long
 def test_a_tie_holds_a_block_or_breaks() -> None:
     """A rod at the top of a slender block to a fixed point, under a pulse that overturns the block without it."""
     box = "[{box: {group: b, material: stone, min: [0, 0, 0], max: [0.2, 0.3, 1]}}]"

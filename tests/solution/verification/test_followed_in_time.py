@@ -141,6 +141,7 @@ def test_forces_over_time_in_other_units() -> None:
     assert np.abs(of[2].rows.forces).max() > 1e-4
 
 
+@pytest.mark.long
 def test_a_block_that_falls_ends_it() -> None:
     text = TWO.replace("max: [0.5, 0.5, 0.5]", "max: [0.5, 0.5, 1.5]").replace(
         "0.5], max: [0.3, 0.45, 1.2]", "1.5], max: [0.3, 0.45, 2.2]"

@@ -37,6 +37,7 @@ def found_in(text: str, **options: Any) -> FindResult:
     return find(read_deck_text(text, Path("deck.yaml")), SimpleNamespace(**(ASKED | options)))
 
 
+@pytest.mark.long
 def test_the_scale_at_which_a_block_falls() -> None:
     """It stands below and falls above; one upwards ends with the step in which it falls."""
     found = found_in(ROCKING.replace("duration: 1.2", "duration: 5"), scan=4, first=True, tolerance=0.05)
@@ -52,6 +53,7 @@ def test_the_scale_at_which_a_block_falls() -> None:
     assert found.record["target"] == {"falls": True}
 
 
+@pytest.mark.long
 def test_the_scale_at_which_it_moves_as_far() -> None:
     found = found_in(ROCKING, target=("peak", 0.03), bounds=(0.5, 1.0), tolerance=0.01)
     (zero,) = found.zeros
