@@ -32,7 +32,7 @@ OF_DECKS = {
     "benchmarks/closed_forms/slopes_of_blocks": (5.0, 1e-7),
     "benchmarks/closed_forms/groove": (0.5 * math.cos(math.radians(30)), 2e-4),
     "benchmarks/published/cocchetti_rizzi_mu_700_stands": (0.107426, 1e-6),
-    "sweeps/base/block_that_rocks": (0.4714, 1e-3),
+    "sweeps/base/block_that_rocks": (0.46797, 1e-3),
 }
 """value that the section `find` of each deck asks for, and how near"""
 UPWARDS = BLOCK.replace("live:", "dead: [{force: [0, 0, 30000], on: block}], live:")
