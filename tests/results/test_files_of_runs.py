@@ -27,6 +27,7 @@ from tests.results.json_keys import values_below
 from tests.results.results_page import RECORD
 from tests.results.rocking import rocking_case
 from tests.results.synthetic import full_results
+from tests.results.test_history_damage import DECK as TIES_IN_TIME
 
 ROOT = Path(__file__).parents[2]
 TUTORIALS = ROOT / "decks" / "tutorials"
@@ -63,13 +64,16 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
         deck = BENCHMARKS.get(name, TUTORIALS / f"{name}.yaml")
         weak = ("materials.stone.tensile_strength=1 kPa",) if name == WEAK else ()
         run(deck, RunOptions(folder=folder, overrides=("output.vtu=false", *weak)))
+    ties = folder / "ties_in_time.yaml"
+    ties.write_text(TIES_IN_TIME, encoding="utf-8")
+    run(ties, RunOptions(folder=folder, overrides=("output.vtu=false",)))
     return folder
 
 
 def records(folder: Path) -> list[dict[str, Any]]:
     """Of the runs, of a check and of results with every field filled."""
     beam = BENCHMARKS["beam_under_travelling_load"]
-    own = [json.loads((folder / f"{name}.json").read_text(encoding="utf-8")) for name in DECKS]
+    own = [json.loads((folder / f"{name}.json").read_text(encoding="utf-8")) for name in (*DECKS, "ties_in_time")]
     full = full_results()
     lonely = replace(full.contacts, report=replace(full.contacts.report, isolated=np.array([2])))
     checked = [
