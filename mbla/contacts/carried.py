@@ -74,13 +74,13 @@ class CarriedPoints:
         none = np.zeros((len(bodies), 3))
         points = CarriedPoints(centroids, bodies, host, np.stack([none, none]), placed.frames)
         arms = np.stack([points._back(pose, side, ends[side]) for side in (0, 1)])
-        frames = np.einsum("nji,nkj->nki", points._rotations(pose, points.hosts), placed.frames)
+        frames = placed.frames @ points._rotations(pose, points.hosts)
         return replace(points, arms=arms, frames=frames)
 
     def at(self, pose: Pose) -> Placed:
         """Where they are there."""
         ends = [self._places(pose, side) for side in (0, 1)]
-        frames = np.einsum("nij,nkj->nki", self._rotations(pose, self.hosts), self.frames)
+        frames = self.frames @ self._rotations(pose, self.hosts).transpose(0, 2, 1)
         offsets = np.einsum("nij,nj->ni", frames, ends[1] - ends[0])
         return Placed(np.where(self.host[:, None], *ends), frames, offsets)
 

@@ -57,7 +57,7 @@ def is_stale(joints: MovedJoints, pose: Pose, placed: Placed | None = None) -> b
     for each in (since, pose):
         line = (solids.centroids + each.shift)[second] - (solids.centroids + each.shift)[first]
         ways.append(np.einsum("nji,nj->ni", each.rotation[first], line))
-        turns.append(np.einsum("nji,njk->nik", each.rotation[first], each.rotation[second]))
+        turns.append(each.rotation[first].transpose(0, 2, 1) @ each.rotation[second])
     angle = np.sqrt(np.maximum(3.0 - np.einsum("nij,nij->n", *turns), 0.0))
     moved = np.linalg.norm(ways[1] - ways[0], axis=1) + 0.5 * angle * sizes[second]
     if bool(np.any(moved > MOVED * np.minimum(sizes[first], sizes[second]))):

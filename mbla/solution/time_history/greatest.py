@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import deque
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -73,12 +74,12 @@ class Greatest:
         self.rotations = np.maximum(self.rotations, np.arccos(np.clip(0.5 * (turn - 1.0), -1.0, 1.0)))
         opening, slip = self.corners.apart(there)
         self.openings, self.slips = np.maximum(self.openings, opening), np.maximum(self.slips, slip)
-        upright = np.einsum("i,nij,nkj,k->n", self.down, there.rotation, self.rest.rotation, self.down)
+        upright = ((self.down @ there.rotation) * (self.down @ self.rest.rotation)).sum(axis=1)
         fallen = (moved @ self.down > FALLEN * self.heights) | (upright < TILTED)
         self.falling[fallen & np.isnan(self.falling)] = time
         self.last.append(there.shift)
 
-    @property
+    @cached_property
     def heights(self) -> FloatArray:
         """Of the blocks along the dead load, (n_blocks,)."""
         along, first = self.blocks.vertices @ self.down, self.blocks.vertex_start[:-1]

@@ -125,12 +125,12 @@ class MovingBodies:
     def velocities(self, momenta: FloatArray, rotation: FloatArray) -> FloatArray:
         """Of momentum and angular momentum, (n_solids, 6), with inertia at a rotation; 0 of what does not move."""
         own = np.einsum("nji,nj->ni", rotation, momenta[:, 3:])
-        turns = np.einsum("nij,njk,nk->ni", rotation, self.inverse_tensors, own)
+        turns = np.einsum("nij,nj->ni", rotation, np.einsum("nij,nj->ni", self.inverse_tensors, own))
         return np.hstack([momenta[:, :3] * self.inverse_masses[:, None], turns])
 
     def tensors_at(self, rotation: FloatArray) -> FloatArray:
         """Of inertia, for rotations (n_solids, 3, 3)."""
-        return np.asarray(np.einsum("nij,njk,nlk->nil", rotation, self.tensors, rotation))
+        return np.asarray(rotation @ self.tensors @ rotation.transpose(0, 2, 1))
 
     @property
     def free(self) -> IntArray:

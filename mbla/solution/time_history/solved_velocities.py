@@ -1,8 +1,9 @@
 """The equations of one step of time solved: by Newton's method on the law as it is, else by products of the law.
 
-Joints that stay as they are need one or two iterations of Newton's method; where many open, close or slide at once it
-comes to nothing, and a primal–dual method goes to the solution from the best motion seen, or from that without joints.
-What counts is the balance of the forces of the law, as a velocity over that of free fall in the step::
+Joints that stay as they are need one or two iterations of Newton's method. Where many open, close or slide at once its
+whole steps go round in circles, and shorter ones along the same directions come to the solution. Where none of these
+leaves less, a primal–dual method goes there from the best motion seen, or from that without joints. What counts is the
+balance of the forces of the law, as a velocity over that of free fall in the step::
 
     e = √(Fᵀ M⁻¹ F / m) / (g₀ h),   m the least mass of a body
 """
@@ -25,8 +26,12 @@ from mbla.solution.pushover.pose.step_states import on_central_path
 BALANCED, WELL = 1e-3, 1e-6
 """e of a step that is solved, and with which Newton's method makes no iteration at all."""
 
-NEWTON, PRODUCTS = 6, 25
+NEWTON, PRODUCTS = 25, 25
 """Iterations of each method at most."""
+
+ENOUGH, SHORTER, SHORTEST = 0.5, 0.7, 0.01
+"""Share of e that a step of Newton's method may leave without a shorter one being tried, by what it is shortened, and
+the least share of it."""
 
 NEAR, WORST, FAR = 1e-4, 1e2, 1.0
 """Products of the law that the primal–dual method begins with, over mean weight times free fall in the step: from the
@@ -96,25 +101,35 @@ class StepEquations:
         error = float(np.sqrt(square)) if 0.0 <= square < np.inf else (0.0 if square < 0.0 else np.inf)
         return Solved(u, forces, error, self.spent), left
 
-    def _newton(self, u: FloatArray) -> Solved:
-        best: Solved | None = None
+    def _newton(self, begin: FloatArray) -> Solved:
+        """By Newton's method, as far as a direction leaves less of the balance."""
+        best, left = self._measured(begin)
         masses = self.step.masses
         assert masses is not None
-        for number in range(NEWTON + 1):
-            found, left = self._measured(u)
-            best = found if best is None or found.error < best.error else best
-            done = found.error < (BALANCED if number else WELL)
-            if done or number == NEWTON or not np.isfinite(found.error):
+        for number in range(NEWTON):
+            if best.error < (BALANCED if number else WELL) or not np.isfinite(best.error):
                 break
-            tangents = joint_stiffness(self.step.joints, found.forces, self.step.length)
-            none = np.zeros_like(u)
+            tangents = joint_stiffness(self.step.joints, best.forces, self.step.length)
+            none = np.zeros_like(begin)
             solve = self.step.joints.matrix.factorized(tangents, none, fixed_load=True, further=[masses.entries])
             self.spent += 1
-            if solve is None:
+            found = None if solve is None else self._along(solve.unrefined(np.append(-left, 0.0))[:-1], best)
+            if found is None:
                 break
-            u = u + solve.unrefined(np.append(-left, 0.0))[:-1]
-        assert best is not None
+            best, left = found
         return best
+
+    def _along(self, direction: FloatArray, before: Solved) -> tuple[Solved, FloatArray] | None:
+        """The best on the way along a direction, whole at first; None where none is better than that before."""
+        share, found = 1.0, self._measured(before.u + direction)
+        while found[0].error >= ENOUGH * before.error and share > SHORTEST:
+            share *= SHORTER
+            nearer = self._measured(before.u + share * direction)
+            if nearer[0].error < found[0].error:
+                found = nearer
+            elif found[0].error < before.error:
+                break
+        return found if found[0].error < before.error else None
 
     def _products(self, begin: FloatArray, sigma: float) -> Solved:
         """The best that ever smaller products come to from displacements, (n_rows,)."""
