@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 
 from mbla.process.run_options import RunOptions
+from mbla.results.findings import found_notices
 from mbla.results.hdf5.result_file import read_results_hdf5, write_results_hdf5
 from mbla.results.results import Results
 from mbla.results.status_file import HISTORY_HEADER
@@ -116,3 +117,42 @@ def test_a_time_limit_leaves_what_was_followed(tmp_path: Path) -> None:
     words = (folder / "block.lst").read_text(encoding="utf-8")
     assert "NOT SOLVED (the time ran out): followed to" in words
     assert json.loads((folder / "block.json").read_text(encoding="utf-8"))["cases"][0]["time_history"]["peak"] is None
+
+
+SOIL = """\
+mbla: 1
+title: A wall that soil leans on
+materials: {stone: {density: 2400}, sand: {density: 1800}}
+joints: {dry: {friction: 0.4, stiffness: {normal: 1.e9}}}
+contacts: {joint: dry}
+blocks:
+  - box: {group: wall, material: stone, min: [-0.9, 0, 0], max: [0, 1, 1.5]}
+  - soil:
+      {group: sand, material: sand, width: 1, outline: [[0, 0], [1.5, 0], [1.5, 1.5], [0, 1.5]],
+       cells: {size: 1}, friction_angle: 33}
+supports:
+  - {ground: {z: 0}, joint: dry}
+  - {ground: {point: [1.5, 0, 0], normal: [-1, 0, 0]}, blocks: sand}
+load_cases:
+  quake:
+    time_history:
+      {motion: {pulse: half_sine, amplitude: 0.7 g, duration: 0.3, direction: x}, step: 0.005, duration: 0.4}
+output: {vtu: false}
+"""
+
+
+def test_soil_of_cells_pushes_a_wall(tmp_path: Path) -> None:
+    """It slides away from the soil by more than it does alone, and the mesh of the soil is warned of."""
+    results, folder = run_of(tmp_path, SOIL)
+    (case,) = results.cases
+    assert (case.status, results.exit_code) == (Status.SOLVED, 0)
+    assert "time-history-soil" in {notice.identifier for notice in found_notices(case) if notice.severity == "warning"}
+    assert verify_file(folder / "block.h5")[1] == ()
+    found = case.solution.further.time_history
+    assert found.frames is not None
+    pushed = -found.frames.shifts[-1, 0, 0]
+    t = np.linspace(0.0, 0.4, 4001)
+    base = np.where(t < 0.3, 0.7 * np.sin(np.pi * t / 0.3), 0.0)
+    rate = np.maximum(np.cumsum(np.where(t < t[np.argmax(base > 0.4)], 0.0, base - 0.4)) * 9.81 * 1e-4, 0.0)
+    alone = float(rate.sum()) * 1e-4
+    assert 1.1 * alone < pushed < 3.0 * alone

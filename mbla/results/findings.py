@@ -63,6 +63,7 @@ REMARKS_THAT_WARN = frozenset(
         "soil-mesh-scatters",
         "tilt-between-not-proved",
         "time-history-soft",
+        "time-history-soil",
     }
 )
 """Remarks of a solver that are warnings; the others are notices."""
@@ -90,6 +91,7 @@ FOUND_AGAIN = frozenset(
         "time-history-coarse",
         "time-history-missed",
         "time-history-soft",
+        "time-history-soil",
     }
 )
 """Remarks that follow from deck, forces and mechanisms: verification finds them again. The others are the run's own."""

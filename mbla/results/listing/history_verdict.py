@@ -22,6 +22,8 @@ MOVING = 0.01
 """of the peak, by which the displacement at the end still varies where that is said"""
 COMES_BACK = 0.5
 """of the peak, up to which what stays is said as what it comes back to"""
+AT_REST = "the state at rest is not confirmed, and was not followed"
+"""why there is no time history where nothing else says so"""
 
 
 def history_verdict(model: Model, case: CaseResult) -> str:
@@ -34,7 +36,7 @@ def history_verdict(model: Model, case: CaseResult) -> str:
     if case.status is Status.NO_EQUILIBRIUM:
         return case.load_case.question.no_equilibrium
     if figures is None or asked is None:
-        return f"NOT VERIFIED: {case.solution.reason}"
+        return f"NOT VERIFIED: {case.solution.reason or AT_REST}"
     damage = history_damage(model, found)
     moves = still_moves(model, found)
     told = motion_words(model, figures, damage, found.end, moves=moves) + _broken_words(model, damage)

@@ -41,6 +41,11 @@ def _remarks(model: Model, case: LoadCase, result: TimeHistoryResult) -> Iterato
             f"joints is damped by the step, to {result.damping:.2g} of critical damping; rocking and sliding are not"
         )
         yield Message("time-history-coarse", words)
+    if model.soils:
+        words = (
+            "soil slips along the edges of its cells alone, as they are divided: it may hold where soil would slip, "
+        )
+        yield Message("time-history-soil", words + "and what it holds may move too little")
     if rows.missed[-1] > 0 and not is_rough(rows):
         yield Message("time-history-missed", missed_words(rows))
     if still_moves(model, result):

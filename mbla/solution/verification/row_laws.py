@@ -1,7 +1,7 @@
 """Joint laws of contact points of a structure that moves, held against those of its deck.
 
 Two bodies that touch as built have the laws of their interfaces there. Of two that meet only on the way, or elsewhere
-where laws go by place, the deck says the law: that of the ground, of all contacts, or of any override.
+where laws go by place, the deck says the law: that of the ground, of all contacts, of soil, or of any override.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ import numpy as np
 from mbla.arrays import BoolArray, IntArray
 from mbla.assembly.assembly import Assembly
 from mbla.deck.sections.contacts import ContactsSection
-from mbla.model.model import LoadCase
+from mbla.model.model import LoadCase, Model
 from mbla.solution.pushover.record import PushedRows
 from mbla.solution.time_history.frames import Frames
 from mbla.solution.verification.time_bodies import solids_of
@@ -58,11 +58,30 @@ def of_another_law(
     touch = np.isin(here // (len(names) + 1), pairs)
     usual = np.full(n_bodies, of_names.get(section.joint, -1))
     usual[n_solids:] = [of_names.get(ground.joint, -1) for ground in model.grounds]
-    meets = laws == usual[np.minimum(bodies.max(axis=1, initial=0), n_bodies - 1)]
+    within = np.minimum(bodies, n_bodies - 1)
+    meets = laws == usual[within.max(axis=1, initial=0)]
+    soil = np.full(n_bodies, -1)
+    soil[label] = model.soil_of_block
+    meets = np.where((soil[within] >= 0).any(axis=1), _of_soil(model, of_names, soil, within, laws), meets)
     meets |= np.isin(laws, [of_names.get(each.joint, -1) for each in section.overrides])
     by_place = any(each.orientation is not None or each.box is not None for each in section.overrides)
     elsewhere = ~touch | by_place | (model.interfaces is not None)
     return np.asarray(wrong | ~(np.isin(here, at_built) | elsewhere & meets))
+
+
+def _of_soil(model: Model, of_names: dict[str, int], soil: IntArray, bodies: IntArray, laws: IntArray) -> BoolArray:
+    """Which points have the law of soil that touches there: its own with soil and ground, that of a wall with blocks.
+
+    soil : (n_bodies,) which soil each body is, negative of others
+    """
+    found, grounds = np.zeros(len(laws), dtype=bool), len(soil) - len(model.grounds)
+    for side in (0, 1):
+        own, other = bodies[:, side], bodies[:, 1 - side]
+        for number, each in enumerate(model.soils):
+            free = (soil[other] >= 0) | (other >= grounds)
+            wanted = np.where(free, of_names.get(each.joint, -1), of_names.get(each.wall_joint, -1))
+            found |= (soil[own] == number) & (laws == wanted)
+    return found
 
 
 def _numbers(bodies: IntArray, n_bodies: int, laws: IntArray, n_laws: int) -> IntArray:

@@ -183,8 +183,8 @@ def _standing_failures(
 
 
 def _soil_failures(model: Model, load_case: LoadCase) -> tuple[Message, ...]:
-    """On a mesh whose corners were moved for nothing soil cannot slip where it would."""
-    if not model.soils or load_case.soil:
+    """On a mesh whose corners were moved for nothing soil cannot slip where it would; what has no factor says so."""
+    if not model.soils or load_case.soil or not load_case.question.multiplies:
         return ()
     words = (
         "soil slips along the edges of its cells alone, which were not moved to where it slips most easily: its load "
