@@ -7,8 +7,9 @@
     python -m tests.performance.time_history --steps 2 1     at some steps only, in ms
     python -m tests.performance.time_history --table         what was recorded last, for time_history.md
 
-A least amplitude is halved in to 5e-4; of the column of drums it is the first of two neighbouring amplitudes, 2 %
-apart, at both of which it falls, as the programs it stands beside have it. Theory: ``tests/analytic/rocking.py``.
+A least amplitude is scanned for upwards and halved in to 5e-4; of the column of drums it is the first of two
+neighbouring amplitudes, 2 % apart, at both of which it falls, as the programs it stands beside have it. Theory:
+``tests/analytic/rocking.py``.
 """
 
 from __future__ import annotations
@@ -35,7 +36,7 @@ from tests.performance.recording import read_rows, record
 
 STEPS = (2.0, 1.0, 0.5)
 """ms"""
-CLOSE = 5e-4
+SCAN, CLOSE = 1.005, 5e-4
 BEYOND = {"rectangle": 1.1, "half_sine": 1.1, "sine": 4.0}
 """turn over α from which a block will fall: under one sine its balance is at 1 + a/(g tan α) at most"""
 SLENDER = RockingBlock(0.2, 1.0)
@@ -99,12 +100,13 @@ def falls(found: TimeHistoryResult) -> bool:
 
 
 def halved(fails: Callable[[float], bool], reference: float) -> float:
-    """Least amplitude at which it falls, from a bracket around the reference that is widened until it holds."""
-    low, high = 0.985 * reference, 1.015 * reference
+    """The first amplitude at which it falls, scanned for upwards from below the reference, then halved in."""
+    low = 0.985 * reference
     while fails(low):
         low *= 0.96
+    high = SCAN * low
     while not fails(high):
-        high *= 1.04
+        low, high = high, SCAN * high
     while high / low - 1.0 > CLOSE:
         middle = 0.5 * (low + high)
         low, high = (low, middle) if fails(middle) else (middle, high)
