@@ -7,7 +7,8 @@ a, exactly (Nigam and Jennings 1969, Bulletin of the Seismological Society of Am
     (x, x')_{i+1} = A (x, x')_i + B (a_i, a_{i+1})
 
 A and B depend on the period and on the length of the step. Steps are divided so that none is above a fiftieth of a
-period, between which 0.2 % of a peak is lost at most; after the end the free vibration is followed for one period.
+period, between which 0.2 % of a peak is lost at most; after the end the free vibration is followed for one period of
+its own.
 """
 
 from __future__ import annotations
@@ -112,30 +113,29 @@ def response_spectrum(signal: Signal, periods: FloatArray = PERIODS, damping: fl
     periods : (n,) s, above 0
     damping : share of critical damping, below 1
     """
-    lengths, accelerations = _sampled(signal, float(periods.min()), float(periods.max()))
-    frequency = 2.0 * np.pi / periods
-    known: dict[float, FloatArray] = {}
-    state = np.zeros((2, len(periods)))
-    displacement, acceleration = np.zeros(len(periods)), np.zeros(len(periods))
-    for number, length in enumerate(lengths.tolist()):
-        if length not in known:
-            known[length] = _transition(frequency, damping, length)
-        before, after = accelerations[number], accelerations[number + 1]
-        step = known[length]
-        state = step[:, 0] * state[0] + step[:, 1] * state[1] + step[:, 2] * before + step[:, 3] * after
-        np.maximum(displacement, np.abs(state[0]), out=displacement)
-        absolute = frequency * (2.0 * damping * state[1] + frequency * state[0])
-        np.maximum(acceleration, np.abs(absolute), out=acceleration)
-    return Spectrum(np.asarray(periods), damping, displacement, acceleration)
+    displacement, acceleration = _greatest(signal.times, signal.values[:, None], periods, damping)
+    return Spectrum(np.asarray(periods), damping, displacement[:, 0], acceleration[:, 0])
+
+
+def spectral_accelerations(
+    times: FloatArray, values: FloatArray, periods: FloatArray = PERIODS, damping: float = DAMPING
+) -> FloatArray:
+    """Pseudo-accelerations of k signals with the same times, (n, k), as of their spectra.
+
+    times   : (m,) s, as of a signal
+    values  : (m, k) accelerations
+    periods : (n,) s, above 0
+    """
+    return np.asarray((2.0 * np.pi / periods[:, None]) ** 2 * _greatest(times, values, periods, damping)[0])
 
 
 def spectral_acceleration(signal: Signal, period: float, damping: float = DAMPING) -> float:
     """Pseudo-acceleration at a period above 0 s, as of the spectrum: number by number, which is quicker for one."""
-    lengths, accelerations = _sampled(signal, period, period)
+    lengths, accelerations = _sampled(signal.times, signal.values[:, None], period)
     frequency = np.array([2.0 * np.pi / period])
     known = {length: _transition(frequency, damping, length)[:, :, 0].tolist() for length in set(lengths.tolist())}
     place, speed, most = 0.0, 0.0, 0.0
-    values = accelerations.tolist()
+    values = accelerations[:, 0].tolist()
     for length, before, after in zip(lengths.tolist(), values, values[1:], strict=False):
         (a, b, c, d), (e, f, g, h) = known[length]
         place, speed = (
@@ -143,23 +143,54 @@ def spectral_acceleration(signal: Signal, period: float, damping: float = DAMPIN
             e * place + f * speed + g * before + h * after,
         )
         most = max(most, abs(place))
+    (a, b), (c, d) = _free(frequency, damping, period / PARTS)[:, :, 0].tolist()
+    for _ in range(PARTS):
+        place, speed = a * place + b * speed, c * place + d * speed
+        most = max(most, abs(place))
     return float(frequency[0] ** 2 * most)
 
 
-def _sampled(signal: Signal, shortest: float, longest: float) -> tuple[FloatArray, FloatArray]:
-    """Lengths of steps (m,), rounded so that even ones are the same, and values at their ends (m + 1,).
+def _greatest(
+    times: FloatArray, values: FloatArray, periods: FloatArray, damping: float
+) -> tuple[FloatArray, FloatArray]:
+    """Greatest displacements relative to the base and absolute accelerations, (n, k) each, of k signals."""
+    lengths, accelerations = _sampled(times, values, float(periods.min()))
+    frequency = 2.0 * np.pi / periods
+    own = frequency[:, None]
+    known: dict[float, FloatArray] = {}
+    state = np.zeros((2, len(periods), values.shape[1]))
+    displacement, acceleration = np.zeros(state.shape[1:]), np.zeros(state.shape[1:])
+
+    def seen(state: FloatArray) -> None:
+        np.maximum(displacement, np.abs(state[0]), out=displacement)
+        absolute = own * (2.0 * damping * state[1] + own * state[0])
+        np.maximum(acceleration, np.abs(absolute), out=acceleration)
+
+    for number, length in enumerate(lengths.tolist()):
+        if length not in known:
+            known[length] = _transition(frequency, damping, length)[..., None]
+        before, after = accelerations[number], accelerations[number + 1]
+        step = known[length]
+        state = step[:, 0] * state[0] + step[:, 1] * state[1] + step[:, 2] * before + step[:, 3] * after
+        seen(state)
+    free = _free(frequency, damping, periods / PARTS)[..., None]
+    for _ in range(PARTS):
+        state = free[:, 0] * state[0] + free[:, 1] * state[1]
+        seen(state)
+    return displacement, acceleration
+
+
+def _sampled(times: FloatArray, values: FloatArray, shortest: float) -> tuple[FloatArray, FloatArray]:
+    """Lengths of steps (m,), rounded so that even ones are the same, and values at their ends (m + 1, k).
 
     A jump is a step of no length.
     """
-    lengths = np.diff(signal.times)
+    lengths = np.diff(times)
     parts = np.maximum(np.ceil(lengths * (PARTS / shortest) * (1.0 - 1e-9)), 1.0).astype(np.int64)
     within = np.concatenate([np.arange(1, count + 1) / count for count in parts.tolist()])
     row = np.repeat(np.arange(len(lengths)), parts)
-    values = signal.values[row] + within * np.diff(signal.values)[row]
-    free = np.full(PARTS, longest / PARTS)
-    steps = np.concatenate([(lengths / parts)[row], [0.0], free])
-    rounded = np.round(steps, 12)
-    return rounded, np.concatenate([signal.values[:1], values, np.zeros(1 + PARTS)])
+    inside = values[row] + within[:, None] * np.diff(values, axis=0)[row]
+    return np.round((lengths / parts)[row], 12), np.concatenate([values[:1], inside])
 
 
 def _transition(frequency: FloatArray, damping: float, length: float) -> FloatArray:
@@ -175,8 +206,11 @@ def _transition(frequency: FloatArray, damping: float, length: float) -> FloatAr
     return np.concatenate([matrix, at_start[:, None], at_end[:, None]], axis=1)
 
 
-def _free(frequency: FloatArray, damping: float, time: float) -> FloatArray:
-    """Displacement and velocity after a time, (2, 2, n), of free vibration from a unit displacement and velocity."""
+def _free(frequency: FloatArray, damping: float, time: FloatArray | float) -> FloatArray:
+    """Displacement and velocity, (2, 2, n), of free vibration from a unit displacement and velocity.
+
+    time : one for all, or (n,)
+    """
     damped = frequency * np.sqrt(1.0 - damping**2)
     decay, sine, cosine = np.exp(-damping * frequency * time), np.sin(damped * time), np.cos(damped * time)
     lag = damping * frequency / damped * sine

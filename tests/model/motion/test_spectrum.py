@@ -8,7 +8,7 @@ from scipy.integrate import solve_ivp
 
 from mbla.model.motion.pulses import pulse_of
 from mbla.model.motion.signal import Signal
-from mbla.model.motion.spectrum import Intensity, response_spectrum, spectral_acceleration
+from mbla.model.motion.spectrum import Intensity, response_spectrum, spectral_acceleration, spectral_accelerations
 
 GRAVITY = 9.81
 
@@ -95,3 +95,19 @@ def test_one_period_by_itself(period: float) -> None:
     pulse = pulse_of("sine", 0.5)
     own = spectral_acceleration(pulse, period)
     assert own == pytest.approx(response_spectrum(pulse, np.array([period])).pseudo_acceleration[0], rel=1e-12)
+
+
+def test_after_a_short_motion_each_vibrates_in_its_own_period() -> None:
+    """Long periods beside a short one do not hide where that is at its peak."""
+    pulse, periods = pulse_of("sine", 0.2), np.array([0.05, 0.3, 0.6, 4.0])
+    beside = response_spectrum(pulse, periods).pseudo_acceleration
+    assert beside == pytest.approx([spectral_acceleration(pulse, float(each)) for each in periods], rel=4e-3)
+
+
+def test_spectra_of_several_signals_at_once() -> None:
+    times = np.linspace(0.0, 1.0, 51)
+    values = np.column_stack([np.sin(9.0 * times), np.cos(4.0 * times), 0.0 * times])
+    periods = np.array([0.2, 0.7])
+    found = spectral_accelerations(times, values, periods)
+    alone = [response_spectrum(Signal(times, each), periods).pseudo_acceleration for each in values.T]
+    assert np.allclose(found.T, alone, rtol=1e-12, atol=0.0)
