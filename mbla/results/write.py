@@ -89,6 +89,8 @@ def write_record(results: Results, out: Files, *, every_position: bool) -> Resul
         _write_table(results, out, "history")
     if any(each is not None and each.interfaces for each in asked):
         _write_table(results, out, "history_interfaces")
+    if any(case.solution.further.time_history.spectra for case in results.cases):
+        _write_table(results, out, "spectra")
     files = sorted({*out.names, *(f"{out.stem}.{suffix}" for suffix in ("lst", "h5", "json"))})
     results = replace(results, files=tuple(files))
     out.write_text(f"{out.stem}.lst", listing(results, every_position=every_position))

@@ -20,6 +20,7 @@ from mbla.solution.solution import Checks, Solution
 from mbla.solution.time_history.frames import Frames, PointSet
 from mbla.solution.time_history.history import HalfStep, Peaks, RecordedHistories, TimeHistoryResult
 from mbla.solution.time_history.judged import judged
+from mbla.solution.time_history.point_spectra import point_spectra
 from mbla.solution.time_history.step_rows import HistoryEnd, StepRows
 
 STEP, DURATION, EVERY = 0.01, 4.0, 0.1
@@ -134,6 +135,7 @@ def histories() -> RecordedHistories:
     forces[:, 0, 2] = WEIGHT
     return RecordedHistories(
         times=times,
+        velocity_times=np.maximum(times - STEP / 2, 0.0),
         displacements=moved,
         velocities=speed,
         accelerations=np.gradient(speed, STEP, axis=0) + base[:, None, 2],
@@ -174,6 +176,7 @@ def rocks() -> TimeHistoryResult:
         frames=frames(),
         histories=histories(),
         peaks=found,
+        spectra=point_spectra(asked(), histories()),
         half=HalfStep(1.01 * float(found.displacements.max()), 0.31, 1.1e-3, HistoryEnd.DURATION),
         searches=12,
         seconds=1.5,

@@ -10,7 +10,14 @@ import numpy as np
 from mbla.results.hdf5.held import held
 from mbla.results.quantities.time_history import BASE
 from mbla.solution.time_history.frames import Frames, PointSet
-from mbla.solution.time_history.history import NO_HISTORY, HalfStep, Peaks, RecordedHistories, TimeHistoryResult
+from mbla.solution.time_history.history import (
+    NO_HISTORY,
+    HalfStep,
+    Peaks,
+    PointSpectra,
+    RecordedHistories,
+    TimeHistoryResult,
+)
 from mbla.solution.time_history.step_rows import HistoryEnd, StepRows
 
 
@@ -28,6 +35,7 @@ def history_from(get: dict[str, Any]) -> TimeHistoryResult:
         frames=_frames(get),
         histories=_histories(get),
         peaks=_of(Peaks, "peaks", get),
+        spectra=_of(PointSpectra, "spectra", get),
         half=_half_step(get),
     )
 

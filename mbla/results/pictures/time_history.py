@@ -69,7 +69,7 @@ def _displacements(
     dress(page, axes, "time [s]", f"displacement relative to the base [{length}]")
     lines = list(_moved(scene, asked, found))
     for number, (name, times, moved) in enumerate(lines):
-        axis = int(np.abs(moved).max(axis=0).argmax())
+        axis = _most(moved)
         look = _line(page, BLUE if len(lines) == 1 else tint(page, number, len(lines)))
         axes.plot(times, moved[:, axis], label=f"{name}, {'xyz'[axis]}", **look)
     axes.axhline(0.0, color=GHOST, linewidth=0.8 * page.scale, zorder=0)
@@ -145,7 +145,7 @@ def _energies(sheet: Diagrams, axes: Any, scene: PictureScene, found: TimeHistor
 
 
 def _spectra(sheet: Diagrams, axes: Any, scene: PictureScene, asked: TimeHistory, found: TimeHistoryResult) -> None:
-    """Of the base, and of the absolute acceleration of points along the same directions."""
+    """Of the base, and of points along the axes that the base moves along most; without motion, of their own most."""
     page, gravity = sheet.page, scene.model.units.standard_gravity
     dress(page, axes, "period [s]", f"spectral acceleration, {100.0 * DAMPING:g} % damping [g]")
     for number, motion in enumerate(asked.motions):
@@ -153,15 +153,18 @@ def _spectra(sheet: Diagrams, axes: Any, scene: PictureScene, asked: TimeHistory
         look = _line(page, BLACK if len(asked.motions) == 1 else tint(page, number, len(asked.motions)))
         label = f"base {_along(motion.direction)}"
         axes.plot(spectrum.periods, spectrum.pseudo_acceleration / gravity, label=label, **look)
-    found_at = found.histories
-    if found_at is not None and asked.motions:
-        direction = asked.motions[0].direction
-        for row, point in enumerate(asked.points[:MOST_LINES]):
-            signal = Signal(found_at.times, found_at.accelerations[:, row] @ direction)
-            spectrum = response_spectrum(signal)
-            look = _line(page, SKY if len(asked.points) == 1 else tint(page, row, len(asked.points)), "--")
-            label = f"{point.name} {_along(direction)}"
-            axes.plot(spectrum.periods, spectrum.pseudo_acceleration / gravity, label=label, **look)
+    if (spectra := found.spectra) is not None:
+        along = sorted({int(np.abs(motion.direction).argmax()) for motion in asked.motions})
+        lines = [(row, axis) for row in range(len(asked.points)) for axis in along or [_most(spectra.points[row])]]
+        for number, (row, axis) in enumerate(lines[:MOST_LINES]):
+            look = _line(page, SKY if len(lines) == 1 else tint(page, number, len(lines)), "--")
+            label = f"{asked.points[row].name} along {'xyz'[axis]}"
+            axes.plot(spectra.periods, spectra.points[row, :, axis] / gravity, label=label, **look)
     axes.set_xscale("log")
     axes.set_yscale("log")
     _legend(page, axes)
+
+
+def _most(values: FloatArray) -> int:
+    """The axis along which values (n, 3) are greatest."""
+    return int(np.abs(values).max(axis=0).argmax())

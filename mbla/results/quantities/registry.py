@@ -21,6 +21,7 @@ from mbla.results.quantities import (  # noqa: F401
     supports,
     ties,
     time_history,
+    time_spectra,
 )
 from mbla.results.quantities.group import DECLARED
 from mbla.results.quantities.quantity import Quantity

@@ -183,6 +183,7 @@ SETS.fields(
 HISTORIES.fields(
     RecordedHistories,
     times=Field("time", "instant", unit="time"),
+    velocity_times=Field("instant that velocities are of: the middle of the last step before", "instant", unit="time"),
     displacements=Field(
         "displacement of each point that the deck names, relative to the base, since rest",
         "instant recorded_point axis",

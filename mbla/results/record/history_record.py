@@ -19,7 +19,8 @@ from mbla.results.quantities.group import Field
 from mbla.results.quantities.time_history import HALF_STEP, RESULT, followed
 from mbla.results.record.objects import Object
 from mbla.results.record.scene import Scene
-from mbla.solution.time_history.history import RecordedHistories
+from mbla.results.spectral_peak import SpectralPeak, spectral_peak
+from mbla.solution.time_history.history import PointSpectra, RecordedHistories
 from mbla.solution.time_history.step_rows import StepRows
 from mbla.solution.time_history.still_moves import still_moves
 
@@ -28,6 +29,13 @@ TIME_HISTORY = Object[Scene](
     owner=lambda scene: None if followed(scene) is None else scene,
 )
 ENERGIES, POINT, MOTION = Object[StepRows](), Object["PointPeaks"](), Object["Shaking"]()
+SPECTRAL = Object[SpectralPeak]()
+SPECTRAL.fields(
+    SpectralPeak,
+    axis=Field("along which it is: x, y or z"),
+    period=Field("of what stands there", unit="time"),
+    value=Field("spectral acceleration, with 5 % damping", unit="acceleration"),
+)
 
 
 @TIME_HISTORY.key()
@@ -199,11 +207,12 @@ def at_first_period(shaking: Shaking) -> float | None:
 
 @dataclass(frozen=True)
 class PointPeaks:
-    """A point that the deck names, in the histories of all of them."""
+    """A point that the deck names, in the histories and spectra of all of them."""
 
     name: str
     row: int
     found: RecordedHistories
+    spectra: PointSpectra | None
 
     def sizes(self, values: FloatArray) -> FloatArray:
         """Of its vectors, (m,)."""
@@ -213,10 +222,10 @@ class PointPeaks:
 @TIME_HISTORY.key("a point", inside=POINT)
 def points(scene: Scene) -> list[PointPeaks]:
     """Peaks of the points that the deck names; none where they are no result."""
-    asked, found = scene.solved.load_case.time_history, scene.solved.solution.further.time_history.histories
-    if asked is None or found is None or history_of(scene.solved) is None:
+    asked, found = scene.solved.load_case.time_history, scene.solved.solution.further.time_history
+    if asked is None or found.histories is None or history_of(scene.solved) is None:
         return []
-    return [PointPeaks(point.name, row, found) for row, point in enumerate(asked.points)]
+    return [PointPeaks(point.name, row, found.histories, found.spectra) for row, point in enumerate(asked.points)]
 
 
 POINT.fields(PointPeaks, name=Field("as the deck names it"))
@@ -250,3 +259,9 @@ def peak_acceleration_of_point(point: PointPeaks) -> float:
 def at_the_end(point: PointPeaks) -> float:
     """Displacement at the end."""
     return float(point.sizes(point.found.displacements)[-1])
+
+
+@POINT.key(name="spectral_peak", inside=SPECTRAL)
+def most_of_spectra(point: PointPeaks) -> SpectralPeak | None:
+    """Greatest of its response spectra; null where steps are too long for them."""
+    return None if point.spectra is None else spectral_peak(point.spectra.periods, point.spectra.points[point.row])

@@ -13,7 +13,7 @@ from typing import Any
 from mbla.errors import UsageError
 from mbla.results.files import OutputFolder
 from mbla.results.outcome import notices_of
-from mbla.results.quantities import further, series, solving, steps, supports, ties, time_history
+from mbla.results.quantities import further, series, solving, steps, supports, ties, time_history, time_spectra
 from mbla.results.quantities.group import Group
 from mbla.results.quantities.quantity import Quantity
 from mbla.results.quantities.registry import columns_of
@@ -93,10 +93,17 @@ HISTORY_STEPS = _of_scenes(
     "each step of a structure in time",
     lambda scene: len(scene.solved.solution.further.time_history.rows or ()),
 )
+SPECTRA = _of_scenes(
+    "spectra",
+    "each period of the response spectra of the base and of each point that the deck names, of a structure in time",
+    lambda scene: _count(time_spectra.spectra_in_rows(scene)),
+)
 SENSITIVITY = _of_rows(further.SENSITIVITY, "each parameter by which the load factor is known to change")
 
 
-def _count(found: time_history.PointHistories | time_history.InterfaceHistories | None) -> int:
+def _count(
+    found: time_history.PointHistories | time_history.InterfaceHistories | time_spectra.SpectraInRows | None,
+) -> int:
     return 0 if found is None else found.count
 
 
@@ -125,7 +132,7 @@ TABLES: dict[str, TableKind] = {
     kind.name: kind
     for kind in (
         *(CASES, BLOCKS, INTERFACES, POINTS, REACTIONS, TIES, PROGRAMS, ITERATIONS, PATH, CURVE),
-        *(MODES, HISTORY, HISTORY_INTERFACES, HISTORY_STEPS, SENSITIVITY, SERIES, NOTICES),
+        *(MODES, HISTORY, HISTORY_INTERFACES, HISTORY_STEPS, SPECTRA, SENSITIVITY, SERIES, NOTICES),
     )
 }
 

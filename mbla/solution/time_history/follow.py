@@ -26,6 +26,7 @@ from mbla.solution.time_history.history import HalfStep, TimeHistoryResult
 from mbla.solution.time_history.instants import Instants
 from mbla.solution.time_history.march import DeckStep, March
 from mbla.solution.time_history.moving_bodies import MovingBodies
+from mbla.solution.time_history.point_spectra import point_spectra
 from mbla.solution.time_history.progress import TimeProgress
 from mbla.solution.time_history.remarks import history_remarks
 from mbla.solution.time_history.row_keeper import RowKeeper
@@ -68,7 +69,9 @@ def follow(
     way = way if begin is None else way.after(begin)
 
     def found(end: HistoryEnd) -> TimeHistoryResult:
-        return replace(way.result(end), seconds=spent + time.perf_counter() - started)
+        made = way.result(end)
+        spectra = None if made.histories is None else point_spectra(bodies.history, made.histories)
+        return replace(made, spectra=spectra, seconds=spent + time.perf_counter() - started)
 
     def so_far() -> Followed:
         result = found(HistoryEnd.STOPPED)

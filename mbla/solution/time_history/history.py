@@ -15,6 +15,7 @@ class RecordedHistories:
     """At the points and interfaces that the deck names, m instants.
 
     times         : (m,) s
+    velocity_times : (m,) s, instants of the velocities: half of the last step before, which may be a small one
     displacements : (m, n_points, 3) m, relative to the base, from rest
     velocities    : (m, n_points, 3) relative to the base
     accelerations : (m, n_points, 3) absolute: of the base and relative
@@ -24,6 +25,7 @@ class RecordedHistories:
     """
 
     times: FloatArray
+    velocity_times: FloatArray
     displacements: FloatArray
     velocities: FloatArray
     accelerations: FloatArray
@@ -31,6 +33,22 @@ class RecordedHistories:
     openings: FloatArray
     slips: FloatArray
     forces: FloatArray
+
+
+@dataclass(frozen=True)
+class PointSpectra:
+    """Response spectra of absolute accelerations along x, y and z: of the base and of the points that the deck names.
+
+    periods : (n,) s, from ten steps on
+    damping : share of critical damping
+    base    : (n, 3) spectral accelerations of the base over the same steps
+    points  : (n_points, n, 3)
+    """
+
+    periods: FloatArray
+    damping: float
+    base: FloatArray
+    points: FloatArray
 
 
 @dataclass(frozen=True)
@@ -97,6 +115,7 @@ class TimeHistoryResult:
     period   : s, first period of the joints that press at rest; nan where it was not needed
     damping  : share of critical damping at that period that the step and the dashpots have: what was asked and h/2
     rows, frames, histories, peaks : None where the structure does not stand
+    spectra  : of points; None where the deck names none, or steps are too long for them
     half     : with half of the step; None where that was not asked for
     searches : searches for contacts
     """
@@ -110,6 +129,7 @@ class TimeHistoryResult:
     frames: Frames | None = field(default=None, compare=False)
     histories: RecordedHistories | None = field(default=None, compare=False)
     peaks: Peaks | None = field(default=None, compare=False)
+    spectra: PointSpectra | None = field(default=None, compare=False)
     half: HalfStep | None = None
     searches: int = 0
     seconds: float = 0.0

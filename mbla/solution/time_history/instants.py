@@ -51,7 +51,8 @@ class Instants:
         """The same after instants that are on record."""
         relative = found.accelerations - found.base[:, None, 2]
         rest = (found.openings, found.slips, found.forces)
-        columns = (found.times[:, None], found.displacements, found.velocities, relative, *rest)
+        times = (found.times[:, None], found.velocity_times[:, None])
+        columns = (*times, found.displacements, found.velocities, relative, *rest)
         return replace(self, kept=list(zip(*columns, strict=True)))
 
     def add(self, state: TimeState, there: Pose, before: TimeState | None, step: DeckStep | None) -> None:
@@ -67,13 +68,14 @@ class Instants:
             acceleration = (speed - self._speeds(before, there)) / between
         forces = self._at_rest(state) if step is None else self._forces(step.first.joints, step.first.forces)
         apart = [self._largest(each) for each in self.corners.apart(there)]
-        self.kept.append((np.array([state.time]), moved, speed, acceleration, *apart, forces))
+        times = np.array([state.time]), np.array([state.time - 0.5 * state.length])
+        self.kept.append((*times, moved, speed, acceleration, *apart, forces))
 
     def result(self) -> RecordedHistories:
         """All instants."""
-        times, moved, speeds, accelerations, *rest = (np.stack(each) for each in zip(*self.kept, strict=True))
+        times, middles, moved, speeds, gains, *rest = (np.stack(each) for each in zip(*self.kept, strict=True))
         base = self._base(times[:, 0])
-        return RecordedHistories(times[:, 0], moved, speeds, accelerations + base[:, None, 2], base, *rest)
+        return RecordedHistories(times[:, 0], middles[:, 0], moved, speeds, gains + base[:, None, 2], base, *rest)
 
     def _base(self, times: FloatArray) -> FloatArray:
         """Displacement, velocity and acceleration of the base, (m, 3, 3)."""

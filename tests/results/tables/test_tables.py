@@ -51,6 +51,7 @@ def test_rows_are_blocks_interfaces_and_points_for_each_case(results: Results) -
         "history": 0,
         "history_interfaces": 0,
         "history_steps": 0,
+        "spectra": 0,
         "modes": 0,
         "sensitivity": 0,
         "series": 0,

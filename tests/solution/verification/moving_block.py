@@ -349,6 +349,7 @@ def _histories(block: Block, history: TimeHistory, steps: Sequence[Step]) -> Rec
     forces[1:, 0] = [step.forces[:, [1, 2, 0]].sum(axis=0) for step in steps[:-1]]
     return RecordedHistories(
         times=times,
+        velocity_times=times - np.array([state.before for state in states]) / 2.0,
         displacements=(top - top[0])[:, None],
         velocities=speeds[:, None],
         accelerations=(gains + base[:, 2])[:, None],

@@ -15,7 +15,7 @@ from mbla.results.listing.blocks import MOST_ROWS, Block, Fact, apart, facts, pa
 from mbla.results.listing.history_verdict import peak_words
 from mbla.results.listing.text import counted, full_sentence, number, small
 from mbla.results.results import CaseResult
-from mbla.solution.time_history.history import RecordedHistories, TimeHistoryResult
+from mbla.solution.time_history.history import PointSpectra, RecordedHistories, TimeHistoryResult
 
 ENERGIES = {
     "kinetic": "motion, relative to the base",
@@ -29,6 +29,8 @@ ENERGIES = {
 }
 """of a step, by the names in its rows: what was taken, then what was given"""
 ACCELERATIONS = "Accelerations at an impact depend on the step and on how stiff joints are; displacements hardly do."
+SEEN = 1e-6
+"""of the greatest spectral acceleration, from which another is told"""
 ROUNDING = 1e-9
 """of the largest energy, up to which one is zero"""
 
@@ -46,6 +48,7 @@ def history_sections(assembly: Assembly, case: CaseResult) -> dict[str, list[Blo
             *facts([Fact("status", status_name(case.status)), *_base(model, asked)]),
             *facts([*_figures(assembly, case, figures), *_damage(model, history_damage(model, found))]),
             *apart(_points(model, asked, found.histories)),
+            *apart(_spectra(model, asked, found.spectra)),
             *paragraphs(ACCELERATIONS if asked.points and found.histories is not None else ""),
             *apart(_joints(assembly, load_case, found)),
         ],
@@ -139,6 +142,25 @@ def _points(model: Model, asked: TimeHistory, found: RecordedHistories | None) -
     head += ["absolute acceleration [g]", "at the end"]
     caption = "Peaks of points, displacement and speed relative to the base"
     return table_of(head, rows, left=2, caption=caption, total=len(asked.points))
+
+
+def _spectra(model: Model, asked: TimeHistory, found: PointSpectra | None) -> list[Block]:
+    """Greatest spectral acceleration along each axis, and its period: of the base, and of points."""
+    if found is None:
+        return []
+    names = ["base", *(point.name for point in asked.points[:MOST_ROWS])]
+    values = np.concatenate([found.base[None], found.points[:MOST_ROWS]]) / model.units.standard_gravity
+    largest, rows = float(values.max()), []
+    for name, of_one in zip(names, values, strict=True):
+        at = of_one.argmax(axis=0)
+        cells = [
+            f"{of_one[row, axis]:.3g} at {found.periods[row]:.3g} s" if of_one[row, axis] > SEEN * largest else "0"
+            for axis, row in enumerate(at.tolist())
+        ]
+        rows.append([name, *cells])
+    head = ["point", *(f"along {axis} [g]" for axis in "xyz")]
+    caption = f"Peaks of response spectra, {100.0 * found.damping:g} % damping, periods from {found.periods[0]:.3g} s"
+    return table_of(head, rows, caption=caption, total=1 + len(asked.points))
 
 
 def _joints(assembly: Assembly, case: LoadCase, found: TimeHistoryResult) -> list[Block]:
