@@ -68,7 +68,7 @@ load_cases:
     modes: 1
     time_history:
       motion: {pulse: half_sine, amplitude: 0.3 g, duration: 0.02, direction: x}
-      duration: 0.04
+      duration: 0.06
       check: true
       record: {points: {top: {on: a}}, interfaces: {foot: {between: [a, ground]}}}
 """

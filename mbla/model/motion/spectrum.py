@@ -113,20 +113,21 @@ def response_spectrum(signal: Signal, periods: FloatArray = PERIODS, damping: fl
     periods : (n,) s, above 0
     damping : share of critical damping, below 1
     """
-    displacement, acceleration = _greatest(signal.times, signal.values[:, None], periods, damping)
+    displacement, acceleration = _greatest(signal.times, signal.values[:, None], periods, damping, after=True)
     return Spectrum(np.asarray(periods), damping, displacement[:, 0], acceleration[:, 0])
 
 
 def spectral_accelerations(
     times: FloatArray, values: FloatArray, periods: FloatArray = PERIODS, damping: float = DAMPING
 ) -> FloatArray:
-    """Pseudo-accelerations of k signals with the same times, (n, k), as of their spectra.
+    """Pseudo-accelerations of k signals with the same times, (n, k), without what comes after the last of these.
 
     times   : (m,) s, as of a signal
     values  : (m, k) accelerations
     periods : (n,) s, above 0
     """
-    return np.asarray((2.0 * np.pi / periods[:, None]) ** 2 * _greatest(times, values, periods, damping)[0])
+    displacement, _ = _greatest(times, values, periods, damping, after=False)
+    return np.asarray((2.0 * np.pi / periods[:, None]) ** 2 * displacement)
 
 
 def spectral_acceleration(signal: Signal, period: float, damping: float = DAMPING) -> float:
@@ -151,9 +152,12 @@ def spectral_acceleration(signal: Signal, period: float, damping: float = DAMPIN
 
 
 def _greatest(
-    times: FloatArray, values: FloatArray, periods: FloatArray, damping: float
+    times: FloatArray, values: FloatArray, periods: FloatArray, damping: float, *, after: bool
 ) -> tuple[FloatArray, FloatArray]:
-    """Greatest displacements relative to the base and absolute accelerations, (n, k) each, of k signals."""
+    """Greatest displacements relative to the base and absolute accelerations, (n, k) each, of k signals.
+
+    after : with the free vibration after them
+    """
     lengths, accelerations = _sampled(times, values, float(periods.min()))
     frequency = 2.0 * np.pi / periods
     own = frequency[:, None]
@@ -169,12 +173,11 @@ def _greatest(
     for number, length in enumerate(lengths.tolist()):
         if length not in known:
             known[length] = _transition(frequency, damping, length)[..., None]
-        before, after = accelerations[number], accelerations[number + 1]
-        step = known[length]
-        state = step[:, 0] * state[0] + step[:, 1] * state[1] + step[:, 2] * before + step[:, 3] * after
+        step, ends = known[length], accelerations[number : number + 2]
+        state = step[:, 0] * state[0] + step[:, 1] * state[1] + step[:, 2] * ends[0] + step[:, 3] * ends[1]
         seen(state)
     free = _free(frequency, damping, periods / PARTS)[..., None]
-    for _ in range(PARTS):
+    for _ in range(PARTS if after else 0):
         state = free[:, 0] * state[0] + free[:, 1] * state[1]
         seen(state)
     return displacement, acceleration

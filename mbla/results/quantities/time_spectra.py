@@ -20,7 +20,9 @@ SPECTRA = Group[PointSpectra](
 )
 SPECTRA.fields(
     PointSpectra,
-    periods=Field("period of what stands on a point, from ten steps on", "spectral_period", unit="time"),
+    periods=Field(
+        "period of what stands on a point, from ten steps to the length of the history", "spectral_period", unit="time"
+    ),
     damping=Field("its share of critical damping"),
     base=Field("spectral acceleration of the base over the same steps", "spectral_period axis", unit="acceleration"),
     points=Field(

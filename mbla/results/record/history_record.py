@@ -263,5 +263,5 @@ def at_the_end(point: PointPeaks) -> float:
 
 @POINT.key(name="spectral_peak", inside=SPECTRAL)
 def most_of_spectra(point: PointPeaks) -> SpectralPeak | None:
-    """Greatest of its response spectra; null where steps are too long for them."""
+    """Greatest of its response spectra; null where the history is too short for them."""
     return None if point.spectra is None else spectral_peak(point.spectra.periods, point.spectra.points[point.row])

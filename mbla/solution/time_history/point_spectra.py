@@ -4,6 +4,9 @@ A step gives velocities in its middle, and between two of these the mean of the 
 the impulse of the joints and the dead load over the mass. So the velocity of a point and of the base together is taken
 as linear in between, which keeps every impulse, that of impacts too. A wave of period T loses by that
 1 − (sin(π h/T) / (π h/T))² of its amplitude, 3 % at ten steps: shorter periods are left out.
+
+What stands on a point is followed as long as the structure, and no longer: a point that still moves then would go on at
+its velocity. Periods that the history is too short for are left out too.
 """
 
 from __future__ import annotations
@@ -12,18 +15,16 @@ import numpy as np
 
 from mbla.model.motion.spectrum import DAMPING, PERIODS, spectral_accelerations
 from mbla.model.motion.time_history import TimeHistory
-from mbla.solution.time_history.history import PointSpectra, RecordedHistories
-
-LEAST = 10.0
-"""Steps in the shortest period: there the mean of a step is off by 3 %, and the step itself adds π/10 of damping."""
+from mbla.solution.time_history.history import STEPS_IN_PERIOD, PointSpectra, RecordedHistories
 
 
 def point_spectra(history: TimeHistory, found: RecordedHistories) -> PointSpectra | None:
-    """Of the points that the deck names; None where there are none, or no periods that the steps are short enough for.
+    """Of the points that the deck names; None where there are none, or no such periods.
 
     The base is taken over the same steps, so that a point that moves as the base does has its spectrum.
     """
-    periods = PERIODS[LEAST * history.step * (1.0 - 1e-9) <= PERIODS]
+    periods = PERIODS[STEPS_IN_PERIOD * history.step * (1.0 - 1e-9) <= PERIODS]
+    periods = periods[periods <= found.times[-1] * (1.0 + 1e-9)]
     times, n_points = found.velocity_times, len(history.points)
     if not n_points or not len(periods) or len(times) < 2:
         return None

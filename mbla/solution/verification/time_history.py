@@ -27,6 +27,7 @@ from mbla.solution.verification.time_peaks import PeakCheck
 from mbla.solution.verification.time_points import HistoryCheck
 from mbla.solution.verification.time_rows import RowResidual, row_residual
 from mbla.solution.verification.time_said import end_failures, frames_failures, said_failures
+from mbla.solution.verification.time_spectra import spectra_failures
 from mbla.solution.verification.time_works import works, works_failures
 
 LAW = 1e-3
@@ -105,6 +106,7 @@ def history_failures(
     failures += said_failures(history, frames, result)
     contacts = assembly.contacts
     failures += HistoryCheck.of(contacts, history, solids, rows, frames, result.histories).failures()
+    failures += spectra_failures(history, result.histories, result.spectra)
     failures += PeakCheck(case, contacts, history, solids, rows, frames, result.peaks).failures()
     failures += end_failures(case, history, solids, rows, result.peaks, result.end)
     return _checks(residuals, of_rows), tuple(failures)

@@ -59,6 +59,11 @@ class HistoryCheck:
         if not np.array_equal(self.found.times, self.rows.times):
             yield Message("time-histories", "histories are of other instants than the rows of the time history")
             return
+        middles, ends = self.found.velocity_times, self.found.times
+        own = same(middles[self.at], (self.frames.times - self.frames.lengths_before / 2.0))
+        if not (own and middles[0] == 0.0 and (middles[1:] > ends[:-1]).all() and (middles[1:] < ends[1:]).all()):
+            yield Message("time-histories", "velocities of the histories are of other instants than steps have them")
+            return
         yield from self._of_base()
         for number, point in enumerate(self.history.points):
             yield from self._of_point(number, point)

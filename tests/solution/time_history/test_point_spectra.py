@@ -12,8 +12,8 @@ from mbla.model.motion.pulses import pulse_of
 from mbla.model.motion.signal import Signal
 from mbla.model.motion.spectrum import response_spectrum
 from mbla.model.motion.time_history import BaseMotion, RecordedPoint, TimeHistory
-from mbla.solution.time_history.history import RecordedHistories
-from mbla.solution.time_history.point_spectra import LEAST, point_spectra
+from mbla.solution.time_history.history import STEPS_IN_PERIOD, RecordedHistories
+from mbla.solution.time_history.point_spectra import point_spectra
 from tests.results.rocking import asked, histories
 from tests.solution.time_history.followed import deck_text, followed
 
@@ -67,8 +67,8 @@ def test_a_long_wave_is_enlarged_twenty_over_two() -> None:
 
 def test_an_impact_has_its_impulse() -> None:
     """A velocity V that is there after one step is the spectral velocity of long periods, e^(-ξ π/2) of it damped."""
-    history = shaken(Signal(np.array([0.0, 1.0]), np.zeros(2)), 0.01, 1.0)
-    found = point_spectra(history, moving(history, np.where(np.arange(101) < 50, 0.0, 0.4)))
+    history = shaken(Signal(np.array([0.0, 4.0]), np.zeros(2)), 0.01, 4.0)
+    found = point_spectra(history, moving(history, np.where(np.arange(401) < 50, 0.0, 0.4)))
     assert found is not None
     long = found.periods > 1.0
     ratio = found.damping / np.sqrt(1.0 - found.damping**2)
@@ -76,14 +76,23 @@ def test_an_impact_has_its_impulse() -> None:
     assert found.points[0, long, 0] * found.periods[long] / (2.0 * np.pi) == pytest.approx(most, rel=3e-3)
 
 
-def test_periods_that_steps_are_too_long_for_are_left_out() -> None:
+def test_short_periods_are_left_out() -> None:
     history = shaken(pulse_of("sine", 0.4), 0.02, 1.0)
     at_rest = moving(history, np.zeros(51))
     found = point_spectra(history, at_rest)
     assert found is not None
-    assert found.periods[0] == pytest.approx(LEAST * 0.02)
+    assert found.periods[0] == pytest.approx(STEPS_IN_PERIOD * 0.02)
     assert point_spectra(replace(history, step=0.5), at_rest) is None
     assert point_spectra(replace(history, points=()), at_rest) is None
+
+
+def test_a_history_without_its_end_leaves_long_periods_out() -> None:
+    """A point that is stopped in the middle of its way does not go on at its velocity."""
+    history = shaken(Signal(np.array([0.0, 1.0]), np.zeros(2)), 0.01, 1.0)
+    found = point_spectra(history, moving(history, np.where(np.arange(101) < 100, 0.0, 0.4)))
+    assert found is not None
+    assert found.periods[-1] == pytest.approx(1.0)
+    assert found.points[0, -1, 0] < 0.1 * 0.4 * 2.0 * np.pi
 
 
 def test_a_block_on_elastic_joints() -> None:

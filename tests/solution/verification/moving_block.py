@@ -19,6 +19,7 @@ from mbla.model.motion.signal import Signal
 from mbla.model.motion.time_history import BaseMotion, RecordedInterface, RecordedPoint, TimeHistory
 from mbla.solution.time_history.frames import Frames, PointSet
 from mbla.solution.time_history.history import Peaks, RecordedHistories, TimeHistoryResult
+from mbla.solution.time_history.point_spectra import point_spectra
 from mbla.solution.time_history.step_rows import HistoryEnd, StepRows
 from tests.line import HEAD, line_of
 
@@ -224,6 +225,7 @@ def _result(block: Block, history: TimeHistory, steps: Sequence[Step], each: int
         frames=_frames(block, history, shown[:-1] if shown[-1] is steps[-1] else shown),
         histories=histories,
         peaks=_peaks(states, histories),
+        spectra=point_spectra(history, histories),
     )
 
 

@@ -108,6 +108,11 @@ def of_peaks(**changes: Edit) -> Change:
     return of_part("peaks", changes)
 
 
+def of_spectra(**changes: Edit) -> Change:
+    """Of response spectra."""
+    return of_part("spectra", changes)
+
+
 def of_points(**changes: Edit) -> Change:
     """Of contact points."""
 
@@ -180,6 +185,13 @@ FORGED: dict[str, tuple[Change, str]] = {
     "the base of a frame": (of_frames(base=add(1e-5, 9, 0)), "time-base"),
     "the base of the histories": (of_history("base", 1e-4), "time-base"),
     "a history": (of_history("displacements", 1e-4), "time-histories"),
+    "the instant of a velocity": (of_history("velocity_times", 1e-4), "time-histories"),
+    "a velocity that spectra are made of": (of_history("velocities", 0.05), "time-histories"),
+    "spectra": (of_spectra(points=times(1.02)), "time-histories"),
+    "spectra of the base": (of_spectra(base=times(0.98)), "time-histories"),
+    "spectra that are no numbers": (of_spectra(points=to(np.nan, 0, 3, 0)), "time-histories"),
+    "other periods": (of_spectra(periods=times(1.1)), "time-histories"),
+    "no spectra": (lambda result: replace(result, spectra=None), "time-histories"),
     "energies of a row": (of_rows(friction=add(1.0, 20)), "time-energy"),
     "a peak too small": (of_peaks(displacements=times(0.9)), "time-peak"),
     "a peak too large": (of_peaks(displacements=times(1.2)), "time-peak"),

@@ -159,7 +159,8 @@ def _spectra(model: Model, asked: TimeHistory, found: PointSpectra | None) -> li
         ]
         rows.append([name, *cells])
     head = ["point", *(f"along {axis} [g]" for axis in "xyz")]
-    caption = f"Peaks of response spectra, {100.0 * found.damping:g} % damping, periods from {found.periods[0]:.3g} s"
+    caption = f"Peaks of response spectra, {100.0 * found.damping:g} % damping, periods "
+    caption += f"from {found.periods[0]:.3g} to {found.periods[-1]:.3g} s"
     return table_of(head, rows, caption=caption, total=1 + len(asked.points))
 
 
