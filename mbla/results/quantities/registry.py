@@ -8,6 +8,7 @@ from mbla.results.quantities import (  # noqa: F401
     blocks,
     cases,
     further,
+    history_tables,
     interfaces,
     loads,
     model,

@@ -13,7 +13,7 @@ from typing import Any
 from mbla.errors import UsageError
 from mbla.results.files import OutputFolder
 from mbla.results.outcome import notices_of
-from mbla.results.quantities import further, series, solving, steps, supports, ties, time_history, time_spectra
+from mbla.results.quantities import further, history_tables, series, solving, steps, supports, ties, time_spectra
 from mbla.results.quantities.group import Group
 from mbla.results.quantities.quantity import Quantity
 from mbla.results.quantities.registry import columns_of
@@ -81,12 +81,12 @@ MODES = _of_scenes("modes", "each mode of vibration", lambda scene: len(scene.so
 HISTORY = _of_scenes(
     "history",
     "each instant of the base and of each point that the deck names, of a structure in time",
-    lambda scene: _count(time_history.point_histories(scene)),
+    lambda scene: _count(history_tables.point_histories(scene)),
 )
 HISTORY_INTERFACES = _of_scenes(
     "history_interfaces",
     "each instant of each interface that the deck names, of a structure in time",
-    lambda scene: _count(time_history.interface_histories(scene)),
+    lambda scene: _count(history_tables.interface_histories(scene)),
 )
 HISTORY_STEPS = _of_scenes(
     "history_steps",
@@ -102,7 +102,7 @@ SENSITIVITY = _of_rows(further.SENSITIVITY, "each parameter by which the load fa
 
 
 def _count(
-    found: time_history.PointHistories | time_history.InterfaceHistories | time_spectra.SpectraInRows | None,
+    found: history_tables.PointHistories | history_tables.InterfaceHistories | time_spectra.SpectraInRows | None,
 ) -> int:
     return 0 if found is None else found.count
 
