@@ -1,54 +1,32 @@
-"""How a structure vibrates about its state of rest: its first period.
-
-Nothing is multiplied: there is no load factor λ.
-"""
+"""How a structure vibrates about its state of rest: its first period."""
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from typing import ClassVar
 
-from mbla.arrays import FloatArray
 from mbla.deck.units import Units
 from mbla.questions.figures import significant
-from mbla.questions.question import Question
+from mbla.questions.in_time import InTime
 
 NO_FACTOR = "it vibrates, without a load factor"
 
 
 @dataclass(frozen=True)
-class FirstPeriod(Question):
+class FirstPeriod(InTime):
     """The longest period, which modes say and no load factor."""
 
     name: ClassVar[str] = "modes"
     group: ClassVar[str] = "modes"
     paths: ClassVar[tuple[str, str, str]] = ("modes.period", "modes.period", "modes.period")
-    multiplies: ClassVar[bool] = False
-    collapses: ClassVar[bool] = False
+    figure: ClassVar[str] = "first_period"
     title: ClassVar[str] = "first period"
     applied: ClassVar[str] = "vibrates"
     factors: ClassVar[str] = "first periods"
-    control: ClassVar[str] = "point"
     powers: ClassVar[tuple[str, str]] = ("vibration", "dead load")
-    no_equilibrium: ClassVar[str] = "no equilibrium: the structure does not stand under its dead load"
     no_target: ClassVar[str] = f"{NO_FACTOR}; choose another load case, or mbla sweep"
     no_safety: ClassVar[str] = NO_FACTOR
-    no_sensitivity = NO_FACTOR
     kind = "s"
-
-    @property
-    def column(self) -> str:
-        """Of its own: the group of results has more than the figure."""
-        return "first_period"
-
-    def value(self, load_factor: float) -> float:
-        """None."""
-        return math.nan
-
-    def bounds(self, static: float, kinematic: float, mechanism: FloatArray | None) -> tuple[float, float]:
-        """None."""
-        return math.nan, math.nan
 
     def told(self, value: float, units: Units) -> str:
         """``a first period of 0.21 s``."""

@@ -1,54 +1,32 @@
-"""How far a structure moves in time: the greatest displacement of a block relative to the base.
-
-Nothing is multiplied: there is no load factor λ.
-"""
+"""How far a structure moves in time: the greatest displacement of a block relative to the base."""
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from typing import ClassVar
 
-from mbla.arrays import FloatArray
 from mbla.deck.units import Units
 from mbla.questions.figures import significant
-from mbla.questions.question import Question
+from mbla.questions.in_time import InTime
 
 NO_FACTOR = "it moves in time, without a load factor"
 
 
 @dataclass(frozen=True)
-class PeakDisplacement(Question):
+class PeakDisplacement(InTime):
     """The peak displacement, which the time history says and no load factor."""
 
     name: ClassVar[str] = "time_history"
     group: ClassVar[str] = "time_history"
     paths: ClassVar[tuple[str, str, str]] = ("time_history.peak", "time_history.lower", "time_history.upper")
-    multiplies: ClassVar[bool] = False
-    collapses: ClassVar[bool] = False
+    figure: ClassVar[str] = "peak_displacement"
     title: ClassVar[str] = "peak displacement"
     applied: ClassVar[str] = "moves in time"
     factors: ClassVar[str] = "peak displacements"
-    control: ClassVar[str] = "point"
     powers: ClassVar[tuple[str, str]] = ("motion of the base and forces over time", "dead load")
-    no_equilibrium: ClassVar[str] = "no equilibrium: the structure does not stand under its dead load"
     no_target: ClassVar[str] = f"{NO_FACTOR}; look for the target falls or peak, or choose another load case"
     no_safety: ClassVar[str] = NO_FACTOR
-    no_sensitivity = NO_FACTOR
     kind = "length"
-
-    @property
-    def column(self) -> str:
-        """Of its own: the group of results has more than the figure."""
-        return "peak_displacement"
-
-    def value(self, load_factor: float) -> float:
-        """None."""
-        return math.nan
-
-    def bounds(self, static: float, kinematic: float, mechanism: FloatArray | None) -> tuple[float, float]:
-        """None."""
-        return math.nan, math.nan
 
     def unit(self, units: Units) -> str:
         """Of length."""
