@@ -29,7 +29,7 @@ from mbla.solution.cone_solvers.cone_solution import Log
 from mbla.solution.sequence.sequence import answered
 from mbla.solution.sequence.solved_case import SolvedCase
 from mbla.solution.settings import SolverSettings, settings_for, solver_settings
-from mbla.solution.solution import IterationRecord, Status
+from mbla.solution.solution import WITH_VALUE, IterationRecord, Status
 from mbla.solution.standing.standing import StressFreeStates
 from mbla.solution.time_history.progress import TimeProgress
 
@@ -219,18 +219,25 @@ def solve_case(
     status_file.remark(f"{load_case.name}: {answer.status}")
     case = CaseResult(answer.load_case, answer.solution, answer.checks, answer.status)
     if load_case.modes and (load_case.has_load_factor or load_case.time_history is not None):
-        case = _with_modes(assembly, case)
+        case = _with_modes(deck, assembly, case)
     if load_case.pushover is not None:
         case = _pushed(deck, assembly, case, settings_for(load_case, settings), log, tell)
     return _finished(assembly, _with_limits(deck, assembly, case, log))
 
 
-def _with_modes(assembly: Assembly, case: CaseResult) -> CaseResult:
-    """A load case with its modes of vibration beside its answer."""
+def _with_modes(deck: Deck, assembly: Assembly, case: CaseResult) -> CaseResult:
+    """A load case with its modes of vibration beside its answer; with a time history those after it as well."""
     from mbla.solution.modes.checked import checked_modes_of  # late: few load cases ask for them
 
     modes, remarks = checked_modes_of(assembly, case.load_case, case.load_case.modes)
-    return case.with_further(replace(case.solution.further, modes=modes), remarks)
+    case = case.with_further(replace(case.solution.further, modes=modes), remarks)
+    if case.load_case.time_history is None or case.status not in WITH_VALUE:
+        return case
+    from mbla.solution.modes.after import checked_modes_after
+
+    history = case.solution.further.time_history
+    modes, remarks = checked_modes_after(assembly, deck.contacts, case.load_case, history)
+    return case.with_further(replace(case.solution.further, modes_after=modes), remarks)
 
 
 def _with_limits(deck: Deck, assembly: Assembly, case: CaseResult, log: Log) -> CaseResult:

@@ -18,6 +18,7 @@ from pathlib import Path
 
 import numpy as np
 
+from mbla.assembly.structure_at import StructureAt
 from mbla.codes.assess import assessment_of
 from mbla.deck import Deck
 from mbla.errors import DeckError, FileError, Notice
@@ -49,6 +50,7 @@ from mbla.results.verification.asked import (
     differences_of_stop,
     held_against_deck,
 )
+from mbla.results.verification.modes_after import modes_after_again
 from mbla.results.verification.remarks import MADE_LAST, differences_of_remarks, remarks_found_again
 from mbla.solution.full_model.derived import with_derived
 from mbla.solution.further.further import Further
@@ -176,7 +178,10 @@ def _further_again(results: Results, deck: Deck | None, case: CaseResult) -> Fur
         curve = curve_of(assembly, load_case, solution, rows)
         further = replace(further, pushover=replace(further.pushover, rows=rows, curve=curve))
     if len(further.modes):
-        further = replace(further, modes=checked_modes(assembly, load_case, further.modes)[0])
+        there = StructureAt.as_built(assembly, load_case)
+        further = replace(further, modes=checked_modes(there, further.modes)[0])
+    if len(further.modes_after):
+        further = replace(further, modes_after=modes_after_again(deck, assembly, load_case, further))
     if safety is not None:
         own = proved(assembly, load_case, safety)
         further = replace(further, geometric_safety=replace(safety, verified=own))

@@ -38,6 +38,11 @@ class Pose:
         """As built."""
         return Pose(np.zeros((n_blocks, 3)), np.broadcast_to(np.eye(3), (n_blocks, 3, 3)).copy())
 
+    @staticmethod
+    def of(motions: FloatArray) -> Pose:
+        """After displacements of the centroids and rotation vectors, (n_blocks, 6)."""
+        return Pose(motions[:, :3], screws(motions)[0])
+
     @property
     def rotation_vectors(self) -> FloatArray:
         """(n_blocks, 3) rad."""

@@ -53,6 +53,7 @@ CELLS = {
     "loads": "loads and reactions as vertices where they act",
     "ties": "ties, struts and rings as lines, one for each stretch; strips and fill as vertices where they act",
     "modes": "blocks as polyhedra, with the shape of each mode of vibration, `mode_1` and so on",
+    "modes_after": "the same after a time history, with the blocks where it left them",
     "supports": "ground as slabs under what stands on it, fixed blocks, guided blocks, as polyhedra",
 }
 """files by what their names end in, and their cells"""

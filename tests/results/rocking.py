@@ -146,6 +146,13 @@ def histories() -> RecordedHistories:
     )
 
 
+def ends() -> FloatArray:
+    """Where the blocks end, (n, 6)."""
+    found = np.zeros((N_BLOCKS, 6))
+    found[1, 0] = 1e-3
+    return found
+
+
 def peaks() -> Peaks:
     """Over all steps; the brick stays."""
     moved = np.linalg.norm(shifts(step_rows().times), axis=1)
@@ -156,6 +163,7 @@ def peaks() -> Peaks:
         times=np.array([0.0, at * STEP, 0.0]),
         rotations=np.array([0.0, turns(step_rows().times).max(), 0.0]),
         residuals=np.array([0.0, 1e-3, 0.0]),
+        ends=ends(),
         wanders=np.array([0.0, 2e-4, 0.0]),
         openings=np.array([float(np.sin(turns(step_rows().times).max())), 0.0]),
         slips=np.zeros(N_INTERFACES),

@@ -286,6 +286,23 @@ PATH = (
 """A path of elastic joints that falls, with a step on the way that is not in balance."""
 
 
+def modes() -> Modes:
+    """One, of the three blocks."""
+    return Modes(
+        periods=np.array([0.2]),
+        shapes=np.arange(18.0).reshape(1, 3, 6) / 18.0,
+        masses=np.array([[0.7, 0.2, 0.1]]),
+        moving=np.array([15.0, 15.0, 14.0]),
+        default=1e7,
+        stiffness=np.array([[1e7, 4e6], [2e7, 8e6]]),
+        pressed=np.array([1.0, 0.5]),
+        settlement=np.arange(18.0).reshape(3, 6) * 1e-6,
+        loose=np.array([False, True, False]),
+        residual=1e-12,
+        verified=True,
+    )
+
+
 def full_results() -> Results:
     """Every field of every record filled: nothing that a solver stage may say is missing, however unlikely together."""
     results = tower_results()
@@ -425,19 +442,8 @@ def full_solution(solution: Solution) -> Solution:
                     stiffness=np.array([1e9, 4e8]),
                 ),
             ),
-            modes=Modes(
-                periods=np.array([0.2]),
-                shapes=np.arange(18.0).reshape(1, 3, 6) / 18.0,
-                masses=np.array([[0.7, 0.2, 0.1]]),
-                moving=np.array([15.0, 15.0, 14.0]),
-                default=1e7,
-                stiffness=np.array([[1e7, 4e6], [2e7, 8e6]]),
-                pressed=np.array([1.0, 0.5]),
-                settlement=np.arange(18.0).reshape(3, 6) * 1e-6,
-                loose=np.array([False, True, False]),
-                residual=1e-12,
-                verified=True,
-            ),
+            modes=modes(),
+            modes_after=replace(modes(), periods=np.array([0.25]), pressed=np.array([0.5, 0.25])),
             geometric_safety=GeometricSafety(
                 sizes=np.array([0.4, 0.3999]),
                 pressed=np.array([100.0, 100.0]),

@@ -28,7 +28,8 @@ PUSHED = (
 )
 DATASET_TYPES = {"float": "float64", "int": "int64", "bool": "uint8", "byte": "uint8"}
 VTK_KINDS = (
-    *("blocks", "frames", "forces", "contacts", "interfaces", "thrust", "hinges", "loads", "ties", "modes", "supports"),
+    *("blocks", "frames", "forces", "contacts", "interfaces", "thrust", "hinges", "loads", "ties"),
+    *("modes", "modes_after", "supports"),
 )
 
 
@@ -160,7 +161,7 @@ def arrays_of(path: Path) -> Iterator[tuple[str, str, str]]:
 
 def kind_of(path: Path) -> str:
     """Kind of a VTU file as the page has it: by the end of its name."""
-    found = re.search(r"_(frame|pushed|[a-z]+)(_\d+)?$", path.stem)
+    found = re.search(r"_(frame|pushed|modes_after|[a-z]+)(_\d+)?$", path.stem)
     assert found is not None
     return "frames" if found[1] in ("frame", "pushed", "history") else found[1]
 

@@ -149,7 +149,8 @@ class LoadCaseSection(Section):
     modes: Annotated[int, Integer(ge=1, le=1000)] | None = Field(
         None,
         description="how many modes of vibration are sought at the state of rest under the dead loads, with their "
-        "periods and participating masses; in place of live, or beside whatever else is asked",
+        "periods and participating masses; with time_history also about the state that it leaves; in place of live, "
+        "or beside whatever else is asked",
     )
 
 

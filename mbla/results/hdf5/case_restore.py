@@ -75,7 +75,8 @@ def case_from(load_case: LoadCase, get: dict[str, Any]) -> CaseResult:
             time_history=history_from(get),
             sensitivity=records(Slope, get, "sensitivity") if "sensitivity/parameter" in get else (),
             geometric_safety=_geometric_safety(get),
-            modes=_modes(get),
+            modes=_modes(get, "vibration"),
+            modes_after=_modes(get, "vibration_after"),
             soil_range=records(SoilPath, get, "soil_range") if "soil_range/share" in get else (),
         ),
     }
@@ -129,10 +130,10 @@ def _geometric_safety(get: dict[str, Any]) -> GeometricSafety | None:
     return GeometricSafety(**values | {"verified": bool(values["verified"])})
 
 
-def _modes(get: dict[str, Any]) -> Modes:
-    if "vibration/periods" not in get:
+def _modes(get: dict[str, Any], group: str) -> Modes:
+    if f"{group}/periods" not in get:
         return NO_MODES
-    values = held(Modes, "vibration", get)
+    values = held(Modes, group, get)
     if not (len(values["periods"]) and (values["periods"] > 0.0).all() and (np.diff(values["periods"]) <= 0.0).all()):
         raise ValueError("periods of modes")
     return Modes(**values | {"verified": bool(values["verified"])})

@@ -239,7 +239,14 @@ PEAKS.fields(
         "block",
         unit="length",
     ),
-    wanders=Field("greatest distance from there over the last tenth of the duration", "block", unit="length"),
+    ends=Field(
+        "displacement and rotation vector of each block at the end, from as built, relative to the base",
+        "block component",
+        unit="displacement",
+    ),
+    wanders=Field(
+        "greatest distance from its residual displacement over the last tenth of the duration", "block", unit="length"
+    ),
     openings=Field("greatest opening of each interface", "interface", unit="length"),
     slips=Field("greatest slip of each interface", "interface", unit="length"),
     falling=Field(

@@ -27,7 +27,7 @@ from mbla.results.record.case_parts import (
 from mbla.results.record.earth_pressure import EARTH_PRESSURE, EarthPressure, earth_pressures
 from mbla.results.record.history_record import TIME_HISTORY
 from mbla.results.record.mechanism_json import MECHANISM
-from mbla.results.record.modes_record import MODES
+from mbla.results.record.modes_record import MODES, MODES_AFTER
 from mbla.results.record.objects import Object
 from mbla.results.record.scene import Scene
 from mbla.results.record.unit_stress import UNIT_STRESS
@@ -123,6 +123,12 @@ CASE.holds(
     "ask",
 )
 CASE.holds("modes", MODES, "modes of vibration about the state at rest; null where not asked for, or there are none")
+CASE.holds(
+    "modes_after",
+    MODES_AFTER,
+    "the same about the state that a time history leaves: with them periods are longer where joints have opened or "
+    "stones have slid; null where not asked for, or there are none",
+)
 CASE.holds(
     "soil_range",
     further.SOIL_RANGE,

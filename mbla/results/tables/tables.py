@@ -78,6 +78,11 @@ ITERATIONS = _of_rows(solving.ITERATIONS, "each iteration of each program")
 PATH = _of_rows(solving.PATH, "each step of the path of elastic joints that was followed")
 CURVE = _of_rows(steps.CURVE, "each step of a pushover")
 MODES = _of_scenes("modes", "each mode of vibration", lambda scene: len(scene.solved.solution.further.modes))
+MODES_AFTER = _of_scenes(
+    "modes_after",
+    "each mode of vibration after a time history",
+    lambda scene: len(scene.solved.solution.further.modes_after),
+)
 HISTORY = _of_scenes(
     "history",
     "each instant of the base and of each point that the deck names, of a structure in time",
@@ -132,7 +137,8 @@ TABLES: dict[str, TableKind] = {
     kind.name: kind
     for kind in (
         *(CASES, BLOCKS, INTERFACES, POINTS, REACTIONS, TIES, PROGRAMS, ITERATIONS, PATH, CURVE),
-        *(MODES, HISTORY, HISTORY_INTERFACES, HISTORY_STEPS, SPECTRA, SENSITIVITY, SERIES, NOTICES),
+        *(MODES, MODES_AFTER, HISTORY, HISTORY_INTERFACES, HISTORY_STEPS, SPECTRA),
+        *(SENSITIVITY, SERIES, NOTICES),
     )
 }
 

@@ -18,6 +18,7 @@ from mbla.model import Model
 from mbla.results.outcome import WITH_VALUE, least_factor, ratio_of
 from mbla.results.results import CaseResult, Results
 from mbla.results.series import series_of, worst_known
+from mbla.results.verification.modes_after import lacks_modes_after
 from mbla.results.verification.pushover import pushover_claims, pushover_differences
 from mbla.results.verification.time_history import history_claims, history_differences
 from mbla.solution.flow.path_record import Stop
@@ -152,6 +153,10 @@ def _not_asked(deck: Deck, case: CaseResult) -> Iterator[str]:
         "a range by the dilatancy of soil": (solution.further.soil_range or None, deck.analysis.soil_range),
         "a time history": (solution.further.time_history.end or None, load_case.time_history is not None),
         "modes of vibration": (len(solution.further.modes) or None, load_case.modes > 0),
+        "modes after a time history": (
+            len(solution.further.modes_after) or None,
+            load_case.modes > 0 and load_case.time_history is not None,
+        ),
         "a verdict on standing": (solution.standing, settings.standing or not load_case.has_load_factor),
         "a state with torsion": (solution.torsion, settings.by_torsion),
         "a least state": (solution.least, settings.by_elastic_path and settings.search > 0.0),
@@ -174,6 +179,8 @@ def _limits(found: Found, deck: Deck, assembly: Assembly, case: CaseResult) -> N
     falls = not case.load_case.has_load_factor and solution.status is not Status.SOLVED
     if case.load_case.modes and not len(solution.further.modes) and not falls:
         _missing(found, "modes of vibration", case, "no-modes")
+    if lacks_modes_after(deck, assembly, case):
+        _missing(found, "modes after the time history", case, "no-modes-after")
     _soil_range(found, deck, assembly.model, case)
 
 

@@ -11,6 +11,7 @@ import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 
 from mbla.assembly.assembly import Assembly
+from mbla.assembly.structure_at import StructureAt
 from mbla.deck import Deck
 from mbla.errors import Message
 from mbla.questions.tilt import Tilt
@@ -19,6 +20,7 @@ from mbla.results.explanations import explanations
 from mbla.results.findings import FOUND_AGAIN
 from mbla.results.results import CaseResult
 from mbla.results.verification.asked import by_normality
+from mbla.results.verification.modes_after import modes_after_remarks
 from mbla.solution.further.geometric_safety.find import no_geometric_safety, why_no_geometric_safety
 from mbla.solution.further.sensitivity.sensitivity import no_sensitivity, why_no_sensitivity
 from mbla.solution.modes.checked import modes_remarks, modes_wrong
@@ -75,8 +77,10 @@ def remarks_found_again(deck: Deck, assembly: Assembly, case: CaseResult) -> tup
             found += pushover_remarks(model, load_case, solution, solution.further.pushover)
         found += [no_pushover(against)] if against else []
     if len(solution.further.modes):
+        there = StructureAt.as_built(assembly, load_case)
         found += modes_remarks(model, load_case, solution.further.modes)
-        found += [modes_wrong(words) for words in checked_modes(assembly, load_case, solution.further.modes)[1]]
+        found += [modes_wrong(words) for words in checked_modes(there, solution.further.modes)[1]]
+    found += modes_after_remarks(deck, assembly, case)
     found += history_remarks(model, load_case, solution.further.time_history)
     if deck.analysis.sensitivity is not False:
         against = why_no_sensitivity(load_case, solution, case.checks)

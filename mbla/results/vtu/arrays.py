@@ -70,6 +70,9 @@ OTHERS: dict[tuple[str, str], tuple[Quantity, ...]] = {
             "axis",
         ),
     ),
+    ("modes_after", "points"): (
+        real("mode_1", "the same after a time history, of blocks where it left them", "length", "axis"),
+    ),
     ("supports", "cells"): (
         integer("kind", "0 ground plane, 1 fixed block, 2 guided block"),
         integer("body", "block, or number of blocks + number of the ground plane"),

@@ -30,6 +30,7 @@ from mbla.results.vtu.meshes import (
     frame_mesh,
     hinges_mesh,
     interfaces_mesh,
+    modes_after_mesh,
     modes_mesh,
     thrust_mesh,
 )
@@ -46,6 +47,7 @@ MESHES: dict[str, Callable[[Scene], Mesh | None]] = {
     "loads": loads_mesh,
     "ties": ties_mesh,
     "modes": modes_mesh,
+    "modes_after": modes_after_mesh,
 }
 """by what the name of the file ends in, ``STEM_CASE_kind.vtu``; None where a scene has none"""
 

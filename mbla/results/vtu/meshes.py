@@ -7,7 +7,7 @@ alphabetical order and flags are 0 and 1.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +15,8 @@ import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
 from mbla.model.geometry.meshio_files import write_mesh
+from mbla.model.model import Model
+from mbla.model.pose import Pose
 from mbla.model.solids.blocks import Blocks
 from mbla.results.collapse.collapse import kept
 from mbla.results.collapse.interface_modes import InterfaceMode
@@ -22,6 +24,7 @@ from mbla.results.collapse.motion import mean_displacements, motion_scale, moved
 from mbla.results.collapse.thrust import points_to_draw
 from mbla.results.record.scene import Scene
 from mbla.results.vtu.arrays import Arrays, arrays_of
+from mbla.solution.modes.modes import Modes
 
 POINT, LINE = 0, 1
 """kinds of cells in a file of thrust"""
@@ -66,9 +69,22 @@ def frame_mesh(scene: Scene, motion: FloatArray) -> Mesh:
 
 def modes_mesh(scene: Scene) -> Mesh | None:
     """Blocks as polyhedra with the shape of every mode of vibration as drawn; None where there are none."""
-    if scene.case is None or not len(scene.case.solution.further.modes):
+    return None if scene.case is None else _of_modes(scene.model, scene.case.solution.further.modes)
+
+
+def modes_after_mesh(scene: Scene) -> Mesh | None:
+    """The same after a time history, with the blocks where it left them."""
+    if scene.case is None or (peaks := scene.case.solution.further.time_history.peaks) is None:
         return None
-    model, shapes = scene.model, scene.case.solution.further.modes.shapes
+    pose = Pose.of(peaks.ends)
+    model = replace(scene.model, blocks=pose.moved(scene.model.blocks))
+    return _of_modes(model, scene.case.solution.further.modes_after)
+
+
+def _of_modes(model: Model, modes: Modes) -> Mesh | None:
+    shapes = modes.shapes
+    if not len(modes):
+        return None
     data: Arrays = {
         f"mode_{number}": motion_scale(model, shape) * vertex_displacements(model.blocks, shape)
         for number, shape in enumerate(shapes, 1)

@@ -97,15 +97,16 @@ class Gravity:
     step: JointStep
 
 
-def gravity_step(joints: ElasticJoints, least_force: float = 0.0) -> Gravity:
-    """The dead load in one step, from joints without stress.
+def gravity_step(joints: ElasticJoints, least_force: float = 0.0, memory: Memory | None = None) -> Gravity:
+    """The dead load in one step.
 
     least_force : n₀ of a structure without weight; 1 where that is none
+    memory      : what joints of points alone remember from before; none: they are without stress
     """
     program, n = joints.program, joints.program.n_points
     force = float(np.abs(program.dead_load).sum()) / max(n, 1) or least_force or 1.0
     held = program.facts.settling_support and bool(np.any(program.live_load))
-    fresh = Memory.stress_free(joints)
+    fresh = Memory.stress_free(joints) if memory is None else memory
     step = JointStep(joints, fresh, 1.0, driven=held, work=0.0, held=WEAKER * HELD[0] * joints.matrix.size)
     exact, spent = _of_points(joints, least_force) if joints.laws else _exactly(step)
     if exact is not None:

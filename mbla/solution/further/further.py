@@ -26,6 +26,7 @@ class Further:
     time_history     : the structure in time; without rows where none was asked for
     soil_range       : paths on which soil of cells slides with little dilatancy and with much; empty without
     modes            : of vibration about the state at rest; none where not asked for, or with the reason
+    modes_after      : the same about the state that a time history leaves
     """
 
     pushover: Pushover = NOT_PUSHED
@@ -34,6 +35,7 @@ class Further:
     soil_range: tuple[SoilPath, ...] = ()
     time_history: TimeHistoryResult = NO_HISTORY
     modes: Modes = field(default=NO_MODES, compare=False)
+    modes_after: Modes = field(default=NO_MODES, compare=False)
 
 
 NOTHING_FURTHER = Further()

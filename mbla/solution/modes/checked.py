@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from mbla.assembly.assembly import Assembly
+from mbla.assembly.structure_at import StructureAt
 from mbla.errors import Message
 from mbla.model.model import LoadCase, Model
 from mbla.solution.modes.find import modes_of
@@ -16,7 +17,8 @@ SOFT = 1e-3
 
 def checked_modes_of(assembly: Assembly, load_case: LoadCase, count: int) -> tuple[Modes, tuple[Message, ...]]:
     """So many modes, verified, and remarks on them; or none, and a remark that says why."""
-    modes, wrong = checked_modes(assembly, load_case, modes_of(assembly, load_case, count))
+    there = StructureAt.as_built(assembly, load_case)
+    modes, wrong = checked_modes(there, modes_of(there, count))
     remarks = [] if len(modes) else [no_modes(modes.reason)]
     remarks += [modes_wrong(words) for words in wrong]
     return modes, (*remarks, *modes_remarks(assembly.model.of_case(load_case), load_case, modes))

@@ -1,4 +1,4 @@
-"""The modes of a load case at its gravity state."""
+"""The modes of a structure at rest under its dead load."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import scipy.sparse as sp
 from mbla.arrays import BoolArray, FloatArray
 from mbla.assembly.assembly import Assembly
 from mbla.assembly.lift import motions_of_blocks
-from mbla.model.model import LoadCase
+from mbla.assembly.structure_at import StructureAt
 from mbla.model.solids.blocks import Blocks
 from mbla.process.stopwatch import stage
 from mbla.solution.linear_algebra.superlu import factorize
@@ -27,10 +27,10 @@ MOVES = 1e-6
 
 
 @stage("modes")
-def modes_of(assembly: Assembly, load_case: LoadCase, count: int) -> Modes:
+def modes_of(there: StructureAt, count: int) -> Modes:
     """So many modes by falling period, or fewer where there are no more; none, and why, where it does not stand."""
-    rest = at_rest(assembly, load_case)
-    return Modes(reason=rest) if isinstance(rest, str) else modes_at(assembly, rest, count)
+    rest = at_rest(there)
+    return Modes(reason=rest) if isinstance(rest, str) else modes_at(there.assembly, rest, count)
 
 
 def modes_at(assembly: Assembly, rest: Rest, count: int) -> Modes:

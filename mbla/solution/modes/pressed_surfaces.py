@@ -52,18 +52,18 @@ def pressed_surfaces(rest: Rest, relative: FloatArray) -> PressedSurfaces:
     n = contacts.n_surfaces
     owner = contacts.interface_of_point[: contacts.point_start[n]]
     local = local_points(contacts)
-    above = _above(rest, relative, owner, local)
+    opening = _opening(rest, relative, owner, local)
+    above = _above(rest, owner, opening)
     holds = above > TOUCHES * _lighter(rest)[owner]
     share = np.bincount(owner, holds, n) / np.maximum(np.diff(contacts.point_start[: n + 1]), 1)
-    outlines, start = _outlines(contacts, local)
+    outlines, of_outlines, start = _outlines(contacts, local, opening)
     hollow = np.abs(moments_of(outlines, start)[:, 0] - contacts.areas[:n]) > WHOLE * contacts.areas[:n]
     found = np.where((share == 1.0)[:, None], moments_of(outlines, start), 0.0)
     stiffness = rest.stiffness[:n, 0]
     tension = strengths(rest)[:n]
     for row in np.flatnonzero((share > 0.0) & (share < 1.0) & ~hollow).tolist():
-        polygon = outlines[start[row] : start[row + 1]]
-        opening = relative[row, 0] + relative[row, 4] * polygon[:, 1] - relative[row, 5] * polygon[:, 0]
-        part = clipped(polygon, tension[row] / stiffness[row] - opening)
+        corners = slice(int(start[row]), int(start[row + 1]))
+        part = clipped(outlines[corners], tension[row] / stiffness[row] - of_outlines[corners])
         if len(part):
             found[row] = moments_of(part, np.array([0, len(part)]))[0]
     areas = np.where(holds, contacts.point_areas[: len(owner)], 0.0)
@@ -97,10 +97,15 @@ def clipped(polygon: FloatArray, heights: FloatArray) -> FloatArray:
     return np.array(corners).reshape(-1, 2)
 
 
-def _above(rest: Rest, relative: FloatArray, owner: IntArray, local: FloatArray) -> FloatArray:
-    """Normal force of each point and its tensile strength, (n_points,) of surfaces; negative where it is open."""
+def _opening(rest: Rest, relative: FloatArray, owner: IntArray, local: FloatArray) -> FloatArray:
+    """How far the bodies are apart at each point, (n_points,) m of surfaces: linear over an interface."""
     of_point = relative[owner]
     opening = of_point[:, 0] + of_point[:, 4] * local[:, 1] - of_point[:, 5] * local[:, 0]
+    return np.asarray(rest.gaps[: len(owner)] + opening)
+
+
+def _above(rest: Rest, owner: IntArray, opening: FloatArray) -> FloatArray:
+    """Normal force of each point and its tensile strength, (n_points,) of surfaces; negative where it is open."""
     tension = strengths(rest)[owner] * rest.bodies.contacts.point_areas[: len(owner)]
     return np.asarray(tension - rest.points[: len(owner), 0] * opening)
 
@@ -115,12 +120,12 @@ def _lighter(rest: Rest) -> FloatArray:
     return np.asarray(own[contacts.bodies].min(axis=1))
 
 
-def _outlines(contacts: Contacts, local: FloatArray) -> tuple[FloatArray, IntArray]:
-    """Outer boundaries of the surfaces, one after the other."""
+def _outlines(contacts: Contacts, local: FloatArray, opening: FloatArray) -> tuple[FloatArray, FloatArray, IntArray]:
+    """Outer boundaries of the surfaces, one after the other, and how far the bodies are apart at their corners."""
     n = contacts.n_surfaces
     inside = np.arange(len(local)) - contacts.point_start[contacts.interface_of_point[: len(local)]]
     outer = inside < contacts.outline[contacts.interface_of_point[: len(local)]]
-    return local[outer], starts(contacts.outline[:n].astype(np.int64))
+    return local[outer], opening[outer], starts(contacts.outline[:n].astype(np.int64))
 
 
 def _powers(points: FloatArray) -> FloatArray:

@@ -11,14 +11,14 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from mbla.arrays import FloatArray
-from mbla.assembly.assembly import Assembly
 from mbla.assembly.rigid_bodies import RigidBodies
+from mbla.assembly.structure_at import StructureAt
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import LoadCase
 from mbla.program.assemble import assemble
 from mbla.program.stiffness_shares import stiffness_areas
 from mbla.solution.flow.gravity_step import gravity_step
-from mbla.solution.law.elastic_joints import ElasticJoints
+from mbla.solution.law.elastic_joints import ElasticJoints, Memory
 from mbla.solution.law.stiffness_of_joints import default_stiffness, joint_stiffness
 
 FALLS = "the structure does not stand under its dead load on elastic joints"
@@ -37,6 +37,7 @@ class Rest:
     stiffness  : (n_interfaces, 2) of interfaces across and along, force per volume; nan of ties
     points     : (n_points, 2) of contact points in the step, force per length
     settlement : (n_bodies, 6) displacements and rotations, m, rad
+    gaps       : (n_points,) m of contact points before it, of ties 0
     """
 
     bodies: RigidBodies
@@ -45,6 +46,7 @@ class Rest:
     stiffness: FloatArray
     points: FloatArray
     settlement: FloatArray
+    gaps: FloatArray
 
     @property
     def sag(self) -> float:
@@ -52,26 +54,28 @@ class Rest:
         return float(np.linalg.norm(self.settlement[:, :3], axis=1).max(initial=0.0))
 
 
-def at_rest(assembly: Assembly, load_case: LoadCase) -> Rest | str:
-    """The structure under its dead load, or why it does not rest there, in words."""
-    alone = load_case.dead_alone
-    bodies = assembly.of(alone)
+def at_rest(there: StructureAt) -> Rest | str:
+    """A structure under its dead load, or why it does not rest there, in words."""
+    alone, built = there.load_case.dead_alone, there.built
+    bodies = there.assembly.of(alone)
     model, contacts, case = bodies.model, bodies.contacts, bodies.load_case(alone)
     if not len(contacts.points):
         return NOTHING_TOUCHES
     if not np.any(case.dead_load[model.free]):
         return NO_DEAD_LOAD
-    default = default_stiffness(assembly.model, alone, assembly.glued(alone))
+    default = default_stiffness(built.model, alone, built.glued(alone))
     stiffness = joint_stiffness(model, contacts, default)
     points = point_stiffness(contacts, stiffness)
     whole = assemble(model, contacts, replace(case, live_load=case.dead_load), own=False)  # units need a live load
     program, unit = whole.without_live_load(), float(points[:, 0].mean())
     joints = replace(ElasticJoints.of(program, points[:, 0] / unit, 1.0), shear=points[:, 1] / unit)
-    gravity = gravity_step(joints)
+    gaps = there.gaps_with_ties
+    before = -points[:, 0] * gaps / program.full.scaling.force
+    gravity = gravity_step(joints, memory=replace(Memory.stress_free(joints), normal=before))
     if not gravity.carried:
         return FALLS if gravity.settled else NOT_SOLVED
     settlement = program.mechanism(gravity.state.u) * (program.full.scaling.force**2 / unit)
-    return Rest(bodies, case, default, stiffness, points, settlement)
+    return Rest(bodies, case, default, stiffness, points, settlement, gaps)
 
 
 def point_stiffness(contacts: Contacts, stiffness: FloatArray) -> FloatArray:

@@ -203,7 +203,7 @@ class TimeWay:
             rows=self.rows.result(),
             frames=self.frames.result(),
             histories=self.instants.result(),
-            peaks=self.greatest.result(),
+            peaks=self.greatest.result(bodies.structure.blocks_at(self.begin.pose)),
             searches=self.rows.searches,
         )
 

@@ -85,8 +85,8 @@ class Greatest:
         along, first = self.blocks.vertices @ self.down, self.blocks.vertex_start[:-1]
         return np.asarray(np.maximum.reduceat(along, first) - np.minimum.reduceat(along, first))
 
-    def result(self) -> Peaks:
-        """With the residual displacements."""
+    def result(self, there: Pose) -> Peaks:
+        """With the residual displacements, and the pose of the blocks that is the last of all."""
         shifts = np.stack(self.last) - self.rest.shift
         wanders = np.linalg.norm(shifts - shifts[-1], axis=2).max(axis=0)
         return Peaks(
@@ -94,6 +94,7 @@ class Greatest:
             times=self.times.copy(),
             rotations=self.rotations,
             residuals=np.linalg.norm(shifts[-1], axis=1),
+            ends=np.hstack([there.shift, there.rotation_vectors]),
             wanders=wanders,
             openings=self.openings,
             slips=self.slips,

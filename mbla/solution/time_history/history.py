@@ -62,6 +62,7 @@ class Peaks:
     times         : (n_blocks,) s, when
     rotations     : (n_blocks,) rad, greatest
     residuals     : (n_blocks,) m, displacement at the end
+    ends          : (n_blocks, 6) m, rad, displacements and rotation vectors of the blocks there, from as built
     wanders       : (n_blocks,) m, greatest distance from there over the last tenth of the duration
     openings, slips : (n_interfaces,) m of the interfaces of the assembly, between corners that touched as built
     falling       : (n_blocks,) s when a block has fallen: by half of its height, or tilted by 60 degrees; else nan
@@ -71,6 +72,7 @@ class Peaks:
     times: FloatArray
     rotations: FloatArray
     residuals: FloatArray
+    ends: FloatArray
     wanders: FloatArray
     openings: FloatArray
     slips: FloatArray

@@ -17,13 +17,13 @@ import shapely
 from mbla.arrays import FloatArray, IntArray
 from mbla.assembly.assembly import Assembly
 from mbla.assembly.lift import motions_of_bodies, parting
-from mbla.model.model import LoadCase
+from mbla.assembly.structure_at import StructureAt
 from mbla.model.solids.blocks import Blocks
 from mbla.solution.linear_algebra.superlu import negative_pivots
 from mbla.solution.modes.modes import Modes
 from mbla.solution.verification.leaning import left_out_share
 from mbla.solution.verification.rest import UNBALANCED, AtRest, same, stiffness_of_deck
-from mbla.solution.verification.statics import contact_resultants, contact_velocities, left_to_balance, lever_arms
+from mbla.solution.verification.statics import contact_resultants, left_to_balance, lever_arms
 
 APART = 1e-9
 """Motion of glued blocks against each other, over the largest motion: rounding."""
@@ -47,13 +47,15 @@ FAR = 1e3
 """Size of a half plane over that of what it cuts."""
 
 
-def checked_modes(assembly: Assembly, load_case: LoadCase, modes: Modes) -> tuple[Modes, tuple[str, ...]]:
+def checked_modes(there: StructureAt, modes: Modes) -> tuple[Modes, tuple[str, ...]]:
     """The modes with their residual and whether they are verified, and what is wrong with them, in words."""
     if not len(modes):
         return replace(modes, residual=np.nan, verified=False), ()
-    rest = AtRest.of(assembly, load_case, modes)
-    vectors, wrong = _vectors(rest, modes), list(_wrong_at_rest(assembly, load_case, rest, modes))
-    stiffness, masses = _stiffness(rest, modes), _masses(assembly, rest)
+    if len(modes.pressed) != len(there.assembly.contacts):
+        return replace(modes, residual=np.nan, verified=False), ("interfaces are others than those of the structure",)
+    rest = AtRest.of(there, modes)
+    vectors, wrong = _vectors(rest, modes), list(_wrong_at_rest(there, rest, modes))
+    stiffness, masses = _stiffness(rest, modes), _masses(there.assembly, rest)
     flat = vectors.reshape(len(vectors), -1).T
     pushes, momenta = ((each @ flat).T.reshape(vectors.shape) for each in (stiffness, masses))
     arms = np.repeat([np.ones(len(rest.model.blocks)), lever_arms(rest.model, rest.contacts)], 3, axis=0).T
@@ -64,7 +66,8 @@ def checked_modes(assembly: Assembly, load_case: LoadCase, modes: Modes) -> tupl
         residual = max(residual, float(np.linalg.norm(left / arms[moves])) / size)
     if not residual <= RESIDUAL:
         wrong.append(f"a mode leaves {residual:.2g} of its forces without balance")
-    if (share := left_out_share(assembly.model.of_case(load_case), load_case, modes)) >= 1.0:
+    model = there.assembly.model.of_case(there.load_case)
+    if (share := left_out_share(model, there.load_case, modes)) >= 1.0:
         wrong.append(
             f"it does not stand on joints that soft: its weight takes about {share:.2g} of its stiffness as it leans"
         )
@@ -77,9 +80,9 @@ def _vectors(rest: AtRest, modes: Modes) -> FloatArray:
     return np.stack([motions_of_bodies(rest.bodies, shape) for shape in modes.shapes])
 
 
-def _wrong_at_rest(assembly: Assembly, load_case: LoadCase, rest: AtRest, modes: Modes) -> Iterator[str]:
+def _wrong_at_rest(there: StructureAt, rest: AtRest, modes: Modes) -> Iterator[str]:
     """What is wrong with the state that vibrates, and with motions of blocks that are bodies together."""
-    default, stiffness = stiffness_of_deck(assembly, load_case)
+    default, stiffness = stiffness_of_deck(there)
     if not (same(modes.default, default) and same(modes.stiffness, stiffness)):
         yield "joints are not as stiff as the deck says"
     if not rest.unbalanced <= UNBALANCED:
@@ -155,7 +158,7 @@ def _of_ties(rest: AtRest) -> sp.csr_array:
 def _quadrature(rest: AtRest, modes: Modes) -> tuple[IntArray, FloatArray, FloatArray]:
     """Interface, place and area of the points of quadrature on what presses."""
     contacts = rest.contacts
-    interface, places, weights = [], [], []
+    interface, places, weights = [np.zeros(0, dtype=np.int64)], [np.zeros((0, 3))], [np.zeros(0)]
     for row in np.flatnonzero(modes.pressed > 0.0).tolist():
         own = slice(int(contacts.point_start[row]), int(contacts.point_start[row + 1]))
         corners = contacts.points[own][: contacts.outline[row]]
@@ -182,7 +185,7 @@ def _cut(rest: AtRest, row: int, outline: FloatArray) -> list[FloatArray]:
     """The parts of an outline that press: where the plane through the forces of its corners lies above nothing."""
     contacts = rest.contacts
     own = slice(int(contacts.point_start[row]), int(contacts.point_start[row]) + int(contacts.outline[row]))
-    moved = contact_velocities(rest.model, contacts, rest.settlement)[own, 0]
+    moved = rest.moved[own, 0]
     law = rest.model.joints[contacts.joint_names[contacts.joints[row]]]
     height = law.tensile_strength / rest.stiffness[row, 0] - moved
     plane, *_ = np.linalg.lstsq(np.column_stack([outline, np.ones(len(outline))]), height, rcond=None)

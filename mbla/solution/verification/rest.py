@@ -3,7 +3,9 @@
 The displacements give the force of every joint by the law of elastic joints without history, and these must balance the
 dead load::
 
-    N = −k_N v_N between −f_t and f_c,    T = −k_T v_T, cut to c + μ N
+    N = −k_N (g + v_N) between −f_t and f_c,    T = −k_T v_T, cut to c + μ N
+
+g is the gap that a joint has without them: nothing as built.
 """
 
 from __future__ import annotations
@@ -14,9 +16,9 @@ from functools import cached_property
 import numpy as np
 
 from mbla.arrays import FloatArray
-from mbla.assembly.assembly import Assembly
 from mbla.assembly.lift import motions_of_bodies
 from mbla.assembly.rigid_bodies import RigidBodies
+from mbla.assembly.structure_at import StructureAt
 from mbla.contacts.contacts import Contacts
 from mbla.model.model import LoadCase, Model
 from mbla.solution.modes.modes import Modes
@@ -43,20 +45,24 @@ UNBALANCED = SOLVED_RESIDUAL
 
 @dataclass(frozen=True)
 class AtRest:
-    """What stands: bodies, their dead load, and how far they are said to be displaced by it, (n_bodies, 6)."""
+    """What stands: bodies, their dead load, and how far they are said to be displaced by it, (n_bodies, 6).
+
+    gaps : (n_points,) m without that, of ties 0
+    """
 
     bodies: RigidBodies
     case: LoadCase
     settlement: FloatArray
     stiffness: FloatArray
+    gaps: FloatArray
 
     @staticmethod
-    def of(assembly: Assembly, load_case: LoadCase, modes: Modes) -> AtRest:
+    def of(there: StructureAt, modes: Modes) -> AtRest:
         """As modes say; their stiffness, (n_surfaces, 2)."""
-        alone = load_case.dead_alone
-        bodies = assembly.of(alone)
+        alone = there.load_case.dead_alone
+        bodies = there.assembly.of(alone)
         settlement = motions_of_bodies(bodies, modes.settlement)
-        return AtRest(bodies, bodies.load_case(alone), settlement, modes.stiffness)
+        return AtRest(bodies, bodies.load_case(alone), settlement, modes.stiffness, there.gaps_with_ties)
 
     @property
     def model(self) -> Model:
@@ -80,18 +86,23 @@ class AtRest:
         return found
 
     @cached_property
+    def moved(self) -> FloatArray:
+        """Gap and slip of contact points, (n_points, 3) m."""
+        own = contact_velocities(self.model, self.contacts, self.settlement)
+        return np.asarray(own + self.gaps[:, None] * np.array([1.0, 0.0, 0.0]))
+
+    @cached_property
     def pressed(self) -> FloatArray:
         """Normal force and tensile strength of points together, (n_points,): what is negative is open."""
-        opening = contact_velocities(self.model, self.contacts, self.settlement)[:, 0]
-        return np.asarray(point_strengths(self.model, self.contacts).tension - self.points[:, 0] * opening)
+        strengths = point_strengths(self.model, self.contacts)
+        return np.asarray(strengths.tension - self.points[:, 0] * self.moved[:, 0])
 
     @cached_property
     def forces(self) -> FloatArray:
         """By the law, (n_points, 3)."""
         limits = point_strengths(self.model, self.contacts)
-        moved = contact_velocities(self.model, self.contacts, self.settlement)
-        normal = np.clip(-self.points[:, 0] * moved[:, 0], -limits.tension, limits.compression)
-        shear = -self.points[:, 1:] * moved[:, 1:]
+        normal = np.clip(-self.points[:, 0] * self.moved[:, 0], -limits.tension, limits.compression)
+        shear = -self.points[:, 1:] * self.moved[:, 1:]
         most = np.maximum(limits.cohesion + limits.friction * normal, 0.0)
         size = np.maximum(np.hypot(shear[:, 0], shear[:, 1]), 1e-300)
         return np.column_stack([normal, shear * np.minimum(1.0, most / size)[:, None]])
@@ -119,19 +130,20 @@ class AtRest:
         return np.asarray(every[bodies].min(axis=1))
 
 
-def stiffness_of_deck(assembly: Assembly, load_case: LoadCase) -> tuple[float, FloatArray]:
-    """Of joints for which the deck gives none, and of every interface across and along, (n_interfaces, 2)."""
-    alone = load_case.dead_alone
-    model, solids = assembly.model.of_case(alone), assembly.glued(alone)
+def stiffness_of_deck(there: StructureAt) -> tuple[float, FloatArray]:
+    """Of joints for which the deck gives none, as built, and of every interface across and along, (n_interfaces, 2)."""
+    alone = there.load_case.dead_alone
+    model, solids = there.built.model.of_case(alone), there.built.glued(alone)
     weights = np.linalg.norm(alone.dead_load[~model.fixed, :3], axis=1)
     pairs, of = np.unique(solids.contacts.bodies, axis=0, return_inverse=True)
     area = float(np.bincount(of.ravel(), solids.contacts.areas, len(pairs)).mean())
     size = float(solids.model.blocks.sizes[~solids.model.fixed].mean())
     default = float(weights[weights > 0.0].mean()) / (area * SAG * size)
-    laws = [model.joints[name] for name in solids.contacts.joint_names]
+    contacts = there.assembly.glued(alone).contacts
+    laws = [model.joints[name] for name in contacts.joint_names]
     each = [default if np.isnan(law.normal_stiffness) else law.normal_stiffness for law in laws]
     both = np.array([(own, own * law.shear_ratio) for own, law in zip(each, laws, strict=True)]).reshape(-1, 2)
-    return default, both[solids.contacts.joints]
+    return default, both[contacts.joints]
 
 
 def same(one: FloatArray | float, other: FloatArray | float) -> bool:

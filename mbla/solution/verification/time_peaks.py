@@ -45,7 +45,7 @@ class PeakCheck:
 
     def failures(self) -> Iterator[Message]:
         """Where they are not those of frames."""
-        for words in (*self._displacements(), *self._others(), *self._residuals(), *self._falls()):
+        for words in (*self._displacements(), *self._others(), *self._places(), *self._residuals(), *self._falls()):
             yield Message("time-peak", words)
 
     @property
@@ -125,6 +125,20 @@ class PeakCheck:
 
     def _poses(self) -> Iterator[tuple[FloatArray, FloatArray]]:
         yield from zip(self.frames.shifts, self.frames.turns, strict=True)
+
+    def _places(self) -> Iterator[str]:
+        """Blocks end as far from rest as their residual displacement says, and where the last frame may lead."""
+        frames, ends = self.frames, self.peaks.ends
+        by = np.linalg.norm(ends[:, :3] - frames.shifts[0], axis=1)
+        if not np.allclose(by, self.peaks.residuals, rtol=SAME, atol=self._room):
+            yield "a residual displacement is not that of the place where its block ends"
+        turn = np.einsum("nij,nij->n", rotations_of(ends[:, 3:]), rotations_of(frames.turns[-1]))
+        angles = np.arccos(np.clip(0.5 * (turn - 1.0), -1.0, 1.0))
+        speeds, spins = (np.linalg.norm(frames.velocities[:, :, own], axis=2) for own in (slice(3), slice(3, 6)))
+        far = np.linalg.norm(ends[:, :3] - frames.shifts[-1], axis=1) > self._between(speeds)[-1] + self._room
+        far |= angles > self._between(spins, self._size)[-1] + np.sqrt(SAME) * 1e-2  # of the cosine of small angles
+        if far.any() or np.isnan(ends).any():
+            yield f"{self.solids.model.blocks.name(int(far.argmax()))} ends where the last frame does not lead it"
 
     def _residuals(self) -> Iterator[str]:
         """No pose of the last part is farther from the end than said."""

@@ -14,6 +14,7 @@ import numpy as np
 from mbla.arrays import FloatArray
 from mbla.assembly.assembly import Assembly
 from mbla.assembly.rigid_bodies import RigidBodies
+from mbla.assembly.structure_at import StructureAt
 from mbla.contacts.contacts import Contacts
 from mbla.errors import Message
 from mbla.model.model import LoadCase, Model
@@ -69,7 +70,7 @@ def verify(assembly: Assembly, load_case: LoadCase, solution: Solution) -> Check
     of_bodies, apart = solution_on_bodies(solution, bodies)
     checks = _verify(*_claimed(bodies, load_case), of_bodies)
     if load_case.question.group == "modes" and solution.further.modes is not NO_MODES:
-        _, wrong = checked_modes(assembly, load_case, solution.further.modes)
+        _, wrong = checked_modes(StructureAt.as_built(assembly, load_case), solution.further.modes)
         failures = tuple(Message("modes-not-verified", words) for words in wrong)
         checks = replace(checks, verified=checks.verified and not wrong, failures=(*checks.failures, *failures))
     if not apart <= APART:

@@ -53,6 +53,7 @@ def test_rows_are_blocks_interfaces_and_points_for_each_case(results: Results) -
         "history_steps": 0,
         "spectra": 0,
         "modes": 0,
+        "modes_after": 0,
         "sensitivity": 0,
         "series": 0,
         "notices": len(notices_of(results)),

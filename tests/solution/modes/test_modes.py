@@ -10,6 +10,7 @@ import pytest
 
 from mbla.arrays import FloatArray
 from mbla.assembly import build_assembly
+from mbla.assembly.structure_at import StructureAt
 from mbla.deck import read_deck
 from mbla.model import build_model
 from mbla.solution.modes.find import modes_of
@@ -47,7 +48,7 @@ def modes(
     path.write_text(DECK.format(**given, others=others, contacts=contacts))
     deck = read_deck(path)
     model = build_model(deck)
-    return modes_of(build_assembly(deck, model), model.load_cases[0], count)
+    return modes_of(StructureAt.as_built(build_assembly(deck, model), model.load_cases[0]), count)
 
 
 def tower(count: int, sides: tuple[float, float, float], transform: str = "") -> str:

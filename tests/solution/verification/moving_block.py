@@ -224,12 +224,12 @@ def _result(block: Block, history: TimeHistory, steps: Sequence[Step], each: int
         rows=_rows(block, steps),
         frames=_frames(block, history, shown[:-1] if shown[-1] is steps[-1] else shown),
         histories=histories,
-        peaks=_peaks(states, histories),
+        peaks=_peaks(block, states, histories),
         spectra=point_spectra(history, histories),
     )
 
 
-def _peaks(states: Sequence[State], histories: RecordedHistories) -> Peaks:
+def _peaks(block: Block, states: Sequence[State], histories: RecordedHistories) -> Peaks:
     by = np.array([state.place for state in states]) - states[0].place
     far = np.linalg.norm(by, axis=1)
     last = by[-round(0.1 * (len(by) - 1)) :]
@@ -238,8 +238,9 @@ def _peaks(states: Sequence[State], histories: RecordedHistories) -> Peaks:
         displacements=np.array([far.max()]),
         times=np.array([states[int(far.argmax())].time]),
         rotations=np.array([max(turns)]),
-        residuals=np.array([np.linalg.norm(last.mean(axis=0))]),
-        wanders=np.array([np.linalg.norm(last - last.mean(axis=0), axis=1).max()]),
+        residuals=far[-1:],
+        ends=np.array([[*(states[-1].place - block.size / 2.0), *Rotation.from_matrix(states[-1].turn).as_rotvec()]]),
+        wanders=np.array([np.linalg.norm(last - last[-1], axis=1).max()]),
         openings=np.maximum(histories.openings.max(axis=0), 0.0),
         slips=histories.slips.max(axis=0),
         falling=np.array([np.nan]),

@@ -10,6 +10,7 @@ import pytest
 
 from mbla.assembly import build_assembly
 from mbla.assembly.assembly import Assembly
+from mbla.assembly.structure_at import StructureAt
 from mbla.deck import read_deck
 from mbla.model import build_model
 from mbla.model.model import LoadCase
@@ -26,20 +27,21 @@ def found() -> tuple[Assembly, LoadCase, Modes]:
     deck = read_deck(DECK)
     model = build_model(deck)
     assembly, case = build_assembly(deck, model), model.load_cases[0]
-    return assembly, case, modes_of(assembly, case, 4)
+    return assembly, case, modes_of(StructureAt.as_built(assembly, case), 4)
 
 
 def test_a_mode_that_is_left_out_is_missed(arch: tuple[Assembly, LoadCase, Modes]) -> None:
     assembly, case, modes = arch
     rows = [0, 1, 3]
     kept = {name: getattr(modes, name)[rows] for name in ("periods", "shapes", "masses")}
-    checked, wrong = checked_modes(assembly, case, replace(modes, **kept))
+    checked, wrong = checked_modes(StructureAt.as_built(assembly, case), replace(modes, **kept))
     assert not checked.verified
     assert wrong == ("1 mode of a longer period than the shortest is left out",)
 
 
 def test_modes_are_verified(arch: tuple[Assembly, LoadCase, Modes]) -> None:
-    checked, wrong = checked_modes(*arch)
+    assembly, case, modes = arch
+    checked, wrong = checked_modes(StructureAt.as_built(assembly, case), modes)
     assert wrong == ()
     assert checked.verified
     assert checked.residual < 1e-9
@@ -64,7 +66,7 @@ def test_what_is_changed_is_found(
 ) -> None:
     assembly, case, modes = arch
     assert callable(changed)
-    checked, wrong = checked_modes(assembly, case, replace(modes, **{name: changed(modes)}))
+    checked, wrong = checked_modes(StructureAt.as_built(assembly, case), replace(modes, **{name: changed(modes)}))
     assert not checked.verified
     assert any(words in each for each in wrong)
 
@@ -75,6 +77,8 @@ def test_modes_of_other_structures_are_verified(name: str) -> None:
     deck = read_deck(DECKS / f"{name}.yaml")
     model = build_model(deck)
     assembly, case = build_assembly(deck, model), model.load_cases[0]
-    checked, wrong = checked_modes(assembly, case, modes_of(assembly, case, 6))
+    checked, wrong = checked_modes(
+        StructureAt.as_built(assembly, case), modes_of(StructureAt.as_built(assembly, case), 6)
+    )
     assert wrong == ()
     assert checked.residual < 1e-9

@@ -1,11 +1,11 @@
-"""Modes of vibration in words and as a table."""
+"""Modes of vibration in words and as a table, and those after a time history beside those before it."""
 
 from __future__ import annotations
 
 import numpy as np
 
 from mbla.assembly.assembly import Assembly
-from mbla.results.listing.blocks import MOST_ROWS, Block, Paragraph, apart, table_of
+from mbla.results.listing.blocks import GAP, MOST_ROWS, Block, Paragraph, apart, table_of
 from mbla.results.listing.text import counted, number
 from mbla.results.results import CaseResult
 from mbla.solution.modes.modes import Modes
@@ -29,7 +29,13 @@ def modes_words(case: CaseResult) -> str:
     share = f"{100.0 * modes.masses[0, along]:.3g} % of the mass takes part along {'xyz'[along]}"
     said = "" if modes.verified else "modes are NOT verified: "
     said += f"vibrates with a first period of {number(modes.period)} s, {number(float(modes.frequencies[0]))} Hz"
-    return f"{said}, in which {share if modes.masses[0, along] > SMALL else 'no mass takes part on the whole'}"
+    said = f"{said}, in which {share if modes.masses[0, along] > SMALL else 'no mass takes part on the whole'}"
+    after = case.solution.further.modes_after
+    if not len(after):
+        return said
+    known = "" if after.verified else "modes after it are NOT verified: "
+    words = f"the first period is {number(after.period)} s, {_change(modes.period, after.period)}"
+    return f"{said}; after the time history {known}{words}"
 
 
 def modes_blocks(assembly: Assembly, case: CaseResult) -> list[Block]:
@@ -52,7 +58,48 @@ def modes_blocks(assembly: Assembly, case: CaseResult) -> list[Block]:
     ]
     head = ["mode", "period [s]", "frequency [Hz]", "mass x", "mass y", "mass z", "sum x", "sum y", "sum z"]
     beside = [] if case.load_case.time_history is None else [Paragraph(AT_POINTS)]
-    return [Paragraph(says), *beside, *apart(table_of(head, rows, left=0, total=len(modes)))]
+    found = [Paragraph(says), *beside, *apart(table_of(head, rows, left=0, total=len(modes)))]
+    return [*found, *_after_blocks(assembly, case)]
+
+
+def _after_blocks(assembly: Assembly, case: CaseResult) -> list[Block]:
+    """A row for each mode after the time history, beside the one of the same number before it; nothing without any."""
+    before, after = case.solution.further.modes, case.solution.further.modes_after
+    if not len(after):
+        return []
+    known = "verified" if after.verified else "NOT verified"
+    says = (
+        f"After the time history: {counted(len(after), 'mode')} about the state it leaves, {known}. Blocks are where "
+    )
+    says += "it left them, and joints are as stiff as before where they still press. A period that is longer says that "
+    says += "joints have opened or stones have slid. Modes are compared by their numbers: look at the masses, too."
+    shown = range(min(max(len(before), len(after)), MOST_ROWS))
+    return [GAP, Paragraph(says), *apart(table_of(AFTER_HEAD, [_row(before, after, row) for row in shown], left=0))]
+
+
+AFTER_HEAD = ["mode", "before [s]", "after [s]", "change [%]", "mass x", "mass y", "mass z", "sum x", "sum y", "sum z"]
+
+
+def _row(before: Modes, after: Modes, row: int) -> list[str]:
+    """Periods of a mode before and after, the change, and masses after; dashes where there is no such mode."""
+    old, new = (number(float(each.periods[row])) if row < len(each) else "-" for each in (before, after))
+    if row >= len(after):
+        return [str(row + 1), old, new, *["-"] * 7]
+    change = f"{_per_cent(before.periods[row], after.periods[row]):+.1f}" if row < len(before) else "-"
+    so_far = after.masses[: row + 1].sum(axis=0)
+    return [str(row + 1), old, new, change, *map(_share, after.masses[row]), *map(_share, so_far)]
+
+
+def _per_cent(before: float, after: float) -> float:
+    """By how much a period is longer, without the sign of what rounds to nothing."""
+    change = 100.0 * (after / before - 1.0)
+    return change if abs(change) >= 0.05 else 0.0
+
+
+def _change(before: float, after: float) -> str:
+    """The same in words."""
+    change = _per_cent(before, after)
+    return f"{abs(change):.1f} % {'longer' if change > 0.0 else 'shorter'}" if change else "as before"
 
 
 def _stiffness(assembly: Assembly, modes: Modes) -> str:
