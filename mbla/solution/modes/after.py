@@ -59,7 +59,7 @@ def left_by(
         return IT_MOVES
     if len(model.ties):
         return TIES
-    return StructureAt.moved(assembly, section, load_case, asked, peaks.ends)
+    return StructureAt.moved(assembly, section, load_case, asked, peaks.ends, history.sag)
 
 
 def remarks_after(there: StructureAt, modes: Modes, wrong: tuple[str, ...]) -> tuple[Message, ...]:

@@ -2,7 +2,13 @@
 
 An interface that presses at all its corners counts as a whole. Of another one counts the part in which the two bodies
 close, or are no further apart than its tensile strength allows: bodies are rigid, so that the opening is linear, and
-the edge of that part is a straight line. Moments of polygons are exact::
+the edge of that part is a straight line. Where a motion has opened a joint, corners that carry it overlap by less than
+an edge does that carries the same. So two bodies, turned against each other as they are there, are brought together
+until the surface presses as much as its points do::
+
+    ∫ k_N (h + s)₊ dA = Σ N,    h = f_t/k_N − opening
+
+Moments of polygons are exact::
 
     A, S = ∫ y dA, I = ∫ y yᵀ dA,    y = (y_1, y_2) along the tangents from the centroid of the interface
 
@@ -23,6 +29,9 @@ from mbla.solution.modes.rest import Rest
 TOUCHES = 1e-6
 """Force of a contact point over the load of the lighter of its bodies from which it presses: the step at rest leaves
 1e-7 of it without balance."""
+
+MOST, SHARP = 60, 1e-14
+"""Steps of Newton's method, and the last of them over the greatest difference of heights."""
 
 WHOLE = 1e-6
 """Difference of the area inside an outline from that of its interface, relative, from which it has holes."""
@@ -60,10 +69,12 @@ def pressed_surfaces(rest: Rest, relative: FloatArray) -> PressedSurfaces:
     hollow = np.abs(moments_of(outlines, start)[:, 0] - contacts.areas[:n]) > WHOLE * contacts.areas[:n]
     found = np.where((share == 1.0)[:, None], moments_of(outlines, start), 0.0)
     stiffness = rest.stiffness[:n, 0]
+    volumes = np.bincount(owner, np.maximum(above, 0.0), n) / stiffness
     tension = strengths(rest)[:n]
     for row in np.flatnonzero((share > 0.0) & (share < 1.0) & ~hollow).tolist():
-        corners = slice(int(start[row]), int(start[row + 1]))
-        part = clipped(outlines[corners], tension[row] / stiffness[row] - of_outlines[corners])
+        own = slice(int(start[row]), int(start[row + 1]))
+        heights = tension[row] / stiffness[row] - of_outlines[own]
+        part = clipped(outlines[own], lifted(outlines[own], heights, volumes[row]) if rest.turned[row] else heights)
         if len(part):
             found[row] = moments_of(part, np.array([0, len(part)]))[0]
     areas = np.where(holds, contacts.point_areas[: len(owner)], 0.0)
@@ -95,6 +106,25 @@ def clipped(polygon: FloatArray, heights: FloatArray) -> FloatArray:
         if (low > 0.0) != (high > 0.0):
             corners.append(here + low / (low - high) * (there - here))
     return np.array(corners).reshape(-1, 2)
+
+
+def lifted(polygon: FloatArray, heights: FloatArray, volume: float) -> FloatArray:
+    """Values at the corners of a polygon, (k,), of a linear function and a constant, the positive part a volume.
+
+    Newton's method for ∫ (h + s)₊ dA, which grows with s ever faster: from above it comes down to the root.
+    """
+    plane, *_ = np.linalg.lstsq(np.column_stack([np.ones(len(polygon)), polygon]), heights, rcond=None)
+    shift = 0.0
+    for _ in range(MOST):
+        part = clipped(polygon, heights + shift)
+        area, *firsts = moments_of(part, np.array([0, len(part)]))[0, :3] if len(part) else np.zeros(3)
+        if not area > 0.0:
+            break
+        by = (volume - float(plane @ [area, *firsts])) / area - shift
+        shift += by
+        if abs(by) <= SHARP * float(np.ptp(heights)):
+            break
+    return np.asarray(heights + shift)
 
 
 def _opening(rest: Rest, relative: FloatArray, owner: IntArray, local: FloatArray) -> FloatArray:

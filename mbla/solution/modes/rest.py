@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from mbla.arrays import FloatArray
+from mbla.arrays import BoolArray, FloatArray
 from mbla.assembly.rigid_bodies import RigidBodies
 from mbla.assembly.structure_at import StructureAt
 from mbla.contacts.contacts import Contacts
@@ -38,6 +38,7 @@ class Rest:
     points     : (n_points, 2) of contact points in the step, force per length
     settlement : (n_bodies, 6) displacements and rotations, m, rad
     gaps       : (n_points,) m of contact points before it, of ties 0
+    turned     : (n_surfaces,) interfaces that are open by a motion before it
     """
 
     bodies: RigidBodies
@@ -47,6 +48,7 @@ class Rest:
     points: FloatArray
     settlement: FloatArray
     gaps: FloatArray
+    turned: BoolArray
 
     @property
     def sag(self) -> float:
@@ -75,7 +77,7 @@ def at_rest(there: StructureAt) -> Rest | str:
     if not gravity.carried:
         return FALLS if gravity.settled else NOT_SOLVED
     settlement = program.mechanism(gravity.state.u) * (program.full.scaling.force**2 / unit)
-    return Rest(bodies, case, default, stiffness, points, settlement, gaps)
+    return Rest(bodies, case, default, stiffness, points, settlement, gaps, there.turned)
 
 
 def point_stiffness(contacts: Contacts, stiffness: FloatArray) -> FloatArray:

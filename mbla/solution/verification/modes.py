@@ -13,6 +13,7 @@ from dataclasses import replace
 import numpy as np
 import scipy.sparse as sp
 import shapely
+from scipy.optimize import brentq
 
 from mbla.arrays import FloatArray, IntArray
 from mbla.assembly.assembly import Assembly
@@ -182,20 +183,40 @@ def _quadrature(rest: AtRest, modes: Modes) -> tuple[IntArray, FloatArray, Float
 
 
 def _cut(rest: AtRest, row: int, outline: FloatArray) -> list[FloatArray]:
-    """The parts of an outline that press: where the plane through the forces of its corners lies above nothing."""
+    """The parts of an outline that press: where the plane through the forces of its corners lies above nothing.
+
+    Where a motion has opened the joint it is lifted until it holds what the points carry.
+    """
     contacts = rest.contacts
-    own = slice(int(contacts.point_start[row]), int(contacts.point_start[row]) + int(contacts.outline[row]))
-    moved = rest.moved[own, 0]
+    points = slice(int(contacts.point_start[row]), int(contacts.point_start[row + 1]))
     law = rest.model.joints[contacts.joint_names[contacts.joints[row]]]
-    height = law.tensile_strength / rest.stiffness[row, 0] - moved
+    stiffness = rest.stiffness[row, 0]
+    height = (law.tensile_strength / stiffness - rest.moved[points, 0])[: len(outline)]
     plane, *_ = np.linalg.lstsq(np.column_stack([outline, np.ones(len(outline))]), height, rcond=None)
+    if not rest.turned[row]:
+        return _above(outline, plane)
+    volume = float(np.maximum(rest.pressed[points], 0.0).sum()) / stiffness
+
+    def missing(lift: float) -> float:
+        parts = [shapely.Polygon(piece) for piece in _above(outline, plane + np.array([0.0, 0.0, lift]))]
+        heights = [plane @ [part.centroid.x, part.centroid.y, 1.0] + lift for part in parts]
+        return sum(part.area * height for part, height in zip(parts, heights, strict=True)) - volume
+
+    most = 2.0 * volume / shapely.Polygon(outline).area + float(np.ptp(height))
+    low = -float(height.max())
+    lift = brentq(missing, low, low + most, xtol=1e-15 * float(np.ptp(height)), rtol=1e-14)
+    return _above(outline, plane + np.array([0.0, 0.0, lift]))
+
+
+def _above(outline: FloatArray, plane: FloatArray) -> list[FloatArray]:
+    """The parts of an outline where a plane a y_1 + b y_2 + c lies above nothing."""
     normal = plane[:2] / np.hypot(*plane[:2])
     foot = -plane[2] / np.hypot(*plane[:2]) * normal
     size = float(np.linalg.norm(foot)) + FAR * float(np.abs(outline).max())
     along = np.array([-normal[1], normal[0]])
     half = [foot - size * along, foot + size * along, foot + size * (along + normal), foot + size * (normal - along)]
     part = shapely.Polygon(outline).intersection(shapely.Polygon(half))
-    pieces = [piece for piece in shapely.get_parts(part) if piece.geom_type == "Polygon"]
+    pieces = [piece for piece in shapely.get_parts(part) if piece.geom_type == "Polygon" and piece.area > 0.0]
     return [np.array(shapely.geometry.polygon.orient(piece).exterior.coords)[:-1] for piece in pieces]
 
 

@@ -15,7 +15,7 @@ from functools import cached_property
 
 import numpy as np
 
-from mbla.arrays import FloatArray
+from mbla.arrays import BoolArray, FloatArray
 from mbla.assembly.lift import motions_of_bodies
 from mbla.assembly.rigid_bodies import RigidBodies
 from mbla.assembly.structure_at import StructureAt
@@ -48,6 +48,7 @@ class AtRest:
     """What stands: bodies, their dead load, and how far they are said to be displaced by it, (n_bodies, 6).
 
     gaps : (n_points,) m without that, of ties 0
+    turned : (n_surfaces,) interfaces that are open by a motion without that
     """
 
     bodies: RigidBodies
@@ -55,6 +56,7 @@ class AtRest:
     settlement: FloatArray
     stiffness: FloatArray
     gaps: FloatArray
+    turned: BoolArray
 
     @staticmethod
     def of(there: StructureAt, modes: Modes) -> AtRest:
@@ -62,7 +64,7 @@ class AtRest:
         alone = there.load_case.dead_alone
         bodies = there.assembly.of(alone)
         settlement = motions_of_bodies(bodies, modes.settlement)
-        return AtRest(bodies, bodies.load_case(alone), settlement, modes.stiffness, there.gaps_with_ties)
+        return AtRest(bodies, bodies.load_case(alone), settlement, modes.stiffness, there.gaps_with_ties, there.turned)
 
     @property
     def model(self) -> Model:

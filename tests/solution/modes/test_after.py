@@ -116,6 +116,43 @@ def test_a_stone_that_has_turned_about_the_vertical_vibrates_on_the_octagon_they
     assert up == pytest.approx(2.0 * np.pi * np.sqrt(DENSITY * HEIGHT / (STIFFNESS * area)), rel=1e-5)
 
 
+LEANING = """mbla: 1
+materials: {{stone: {{density: 2500}}}}
+joints: {{dry: {{friction: 0.6, stiffness: {{normal: {stiffness}, ratio: 0.4}}}}}}
+blocks:
+  - box: {{group: left, material: stone, min: [-0.2, 0, 0], max: [0, 1, 1]}}
+  - box: {{group: right, material: stone, min: [0, 0, 0], max: [0.2, 1, 1]}}
+contacts: {{joint: dry}}
+supports: [{{ground: {{z: 0}}}}]
+load_cases:
+  quake:
+    time_history: {{motion: {{pulse: half_sine, amplitude: 0.1 g, duration: 0.1, direction: x}}, duration: 1}}
+    modes: 4
+"""
+
+
+@pytest.mark.parametrize("stiffness", [1e10, 1e9])
+def test_stones_that_lean_on_each_other_stand_on_strips_of_their_feet(tmp_path: Path, stiffness: float) -> None:
+    """Turned by θ about an edge, a foot presses along a strip of the breadth w: N = k_N tan θ w²/2."""
+    (tmp_path / "deck.yaml").write_text(LEANING.format(stiffness=stiffness))
+    deck = read_deck(tmp_path / "deck.yaml")
+    model = build_model(deck)
+    turn, sag = 0.3, DENSITY * 9.81 / stiffness
+    arm = np.array([-0.1 * np.cos(turn) + 0.5 * np.sin(turn), 0.1 * np.sin(turn) + 0.5 * np.cos(turn)])
+    centre = np.array([-np.sin(turn) + arm[0], arm[1]])  # of the left one, whose upper corner touches the other
+    ends = np.zeros((2, 6))
+    ends[:, 0], ends[:, 2] = (centre[0] + 0.1) * np.array([1.0, -1.0]), centre[1] - 0.5
+    ends[:, 4] = turn, -turn
+    history = replace(left(np.zeros(3)), sag=sag)
+    assert history.peaks is not None
+    history = replace(history, peaks=replace(history.peaks, ends=ends))
+    modes, remarks = checked_modes_after(build_assembly(deck, model), deck.contacts, model.load_cases[0], history)
+    assert remarks == ()
+    assert modes.verified
+    strip = np.sqrt(2.0 * DENSITY * 0.2 * 9.81 / (stiffness * np.tan(turn)))
+    assert modes.pressed[1:] == pytest.approx(np.full(2, strip / (0.2 * np.cos(turn))), rel=1e-4)
+
+
 def test_where_a_stone_still_hangs_over_it_is_not_at_rest(tmp_path: Path) -> None:
     """Beyond half of its breadth it would fall; where it is tilted it would turn back."""
     over, remarks = found(tmp_path, left(np.array([0.55, 0.0, -SAG])))
