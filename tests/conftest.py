@@ -19,6 +19,9 @@ from tests.browser import ARGUMENTS, CHROMIUM, PATIENCE
 settings.register_profile("untimed", deadline=None, suppress_health_check=[HealthCheck.too_slow])
 settings.load_profile("untimed")
 
+LONG_AS_A_WHOLE = "\npytestmark = pytest.mark.long\n"
+"""a line of such a file"""
+
 
 def pytest_addoption(parser: pytest.Parser) -> None:
     """``--update`` writes texts that tests compare with anew."""
@@ -26,9 +29,16 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 
 def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool | None:
-    """The scenes of ``extremes`` take seconds to write down, in every process: left out where their tests are."""
-    neither = {"not long", "not trust"} <= set(config.getoption("markexpr").split(" and "))
-    return True if neither and collection_path.name == "test_extremes.py" else None
+    """Where short tests are asked for, what is long as a whole is not even read, nor are the scenes of ``extremes``.
+
+    A fifth of what reads all files takes, in every process.
+    """
+    asked = set(config.getoption("markexpr").split(" and "))
+    if "not long" not in asked or not collection_path.name.startswith("test_") or collection_path.suffix != ".py":
+        return None
+    if collection_path.name == "test_extremes.py":
+        return True if "not trust" in asked else None
+    return True if LONG_AS_A_WHOLE in collection_path.read_text(encoding="utf-8") else None
 
 
 @pytest.hookimpl(tryfirst=True)
