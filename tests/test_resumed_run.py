@@ -30,7 +30,7 @@ CHECKPOINT, LEFT = "block.partial.checkpoint", "block.partial.h5"
 def deck(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(partial, "FIRST", 0.0)
-    Path("block.yaml").write_text(SHAKEN, encoding="utf-8")
+    Path("block.yaml").write_text(SHAKEN.replace("duration: 0.6", "duration: 0.3"), encoding="utf-8")
     return Path("block.yaml")
 
 
@@ -50,12 +50,12 @@ def stopped(deck: Path, after: int, **options: Any) -> None:
 
 def test_a_time_history_goes_on_to_the_same_figures(deck: Path) -> None:
     whole = run(deck, RunOptions(folder=Path("whole.out")))
-    stopped(deck, 50)
+    stopped(deck, 25)
     folder = Path("block.out")
     assert (folder / CHECKPOINT).is_file()
     left = read_results_hdf5(folder / LEFT).cases[0].solution.further.time_history
     assert left.rows is not None
-    assert 0.2 < left.rows.times[-1] < 0.3
+    assert 0.1 < left.rows.times[-1] < 0.15
     steps: list[float] = []
     again = run(deck, RunOptions(resume=True), lambda case, record: steps.append(getattr(record, "time", np.nan)))
     assert np.nanmin(steps) == pytest.approx(left.rows.times[-1] + 0.005, abs=0.006)
@@ -68,11 +68,11 @@ def test_a_time_history_goes_on_to_the_same_figures(deck: Path) -> None:
 
 
 def test_stopped_twice(deck: Path) -> None:
-    stopped(deck, 30)
-    stopped(deck, 30, resume=True)
+    stopped(deck, 15)
+    stopped(deck, 15, resume=True)
     left = read_results_hdf5(Path("block.out") / LEFT).cases[0].solution.further.time_history
     assert left.rows is not None
-    assert len(left.rows) - 1 >= 58
+    assert len(left.rows) - 1 >= 28
     assert run(deck, RunOptions(resume=True)).cases[0].status is Status.SOLVED
 
 

@@ -87,22 +87,13 @@ def of_frames(name: str, by: float) -> Change:
     return change
 
 
-def of_peak(result: TimeHistoryResult) -> TimeHistoryResult:
-    assert result.peaks is not None
-    return replace(result, peaks=replace(result.peaks, displacements=0.5 * result.peaks.displacements))
-
-
 @pytest.mark.parametrize(
     ("change", "identifier"),
     [
         (of_frames("forces", 0.01), "time-momentum"),
-        (of_frames("momenta", 1e-4), "time-momentum"),
-        (of_frames("shifts", 1e-3), "time-law"),
         (of_frames("base", 1e-3), "time-base"),
-        (of_peak, "time-peak"),
-        (lambda result: replace(result, end=HistoryEnd.COLLAPSE), "time-end"),
     ],
-    ids=["forces", "momenta", "poses", "base", "peak", "end"],
+    ids=["forces", "base"],
 )
 def test_what_is_forged_is_not_verified(change: Change, identifier: str, rocks: Results, tmp_path: Path) -> None:
     found, said = said_of(tmp_path, forged(rocks, change))
@@ -111,12 +102,6 @@ def test_what_is_forged_is_not_verified(change: Change, identifier: str, rocks: 
     assert case.status is Status.NOT_VERIFIED
     assert found.exit_code == 4
     assert "differs" in said
-
-
-def test_a_record_of_another_scale(rocks: Results, tmp_path: Path) -> None:
-    other = run_of(tmp_path, "", "parameters.scale=1.01")
-    found, _ = said_of(tmp_path, forged(other, lambda result: rocks.cases[0].solution.further.time_history))
-    assert {"time-base", "time-momentum"} <= {failure.identifier for failure in found.cases[0].checks.failures}
 
 
 def another_law(result: TimeHistoryResult) -> TimeHistoryResult:

@@ -55,7 +55,6 @@ LONG = (
     "benchmarks/closed_forms/wall_20x20",
     "benchmarks/experiments/prestwood",
     "benchmarks/experiments/walls_sw",
-    "benchmarks/experiments/walls_ws",
     "benchmarks/published/cocchetti_rizzi_mu_310_falls",
     "benchmarks/published/cocchetti_rizzi_mu_310_stands",
     "benchmarks/published/cocchetti_rizzi_mu_350_falls",

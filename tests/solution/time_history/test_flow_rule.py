@@ -25,7 +25,7 @@ load_cases:
     time_history:
       motion: {pulse: rectangle, amplitude: 0.5 g, duration: 0.2, direction: x}
       duration: 0.5
-      step: 0.002
+      step: 0.005
 analysis: {flow_rule: FLOW}
 """
 

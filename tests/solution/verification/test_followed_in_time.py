@@ -81,8 +81,8 @@ def failures(of: Followed) -> list[str]:
 @pytest.fixture(scope="module")
 def every_step() -> Followed:
     """Two blocks of which every step is kept, with a mass beside the centre and loads that turn."""
-    text = TWO.replace("supports:", MASSES).replace("    time_history:\n", LOADS)
-    return followed(text, "parameters.every=0.002", "parameters.d=0.3")
+    text = TWO.replace("supports:", MASSES).replace("    time_history:\n", LOADS).replace('"0.6 g"', '"1.2 g"')
+    return followed(text, "parameters.every=0.002", "parameters.d=0.18")
 
 
 def test_every_step_of_two_blocks(every_step: Followed) -> None:
@@ -206,7 +206,7 @@ def test_blocks_in_each_other_without_contact_points(every_step: Followed) -> No
 
 def test_accelerations_over_steps_in_the_place_of_one() -> None:
     """Velocities are those in the middle of the last step before an instant, be it an eighth of one of the deck."""
-    of = followed(TWO.replace("0.6, d: 0.2", "0.6, d: 0.6").replace('"0.6 g"', '"0.9 g"'))
+    of = followed(TWO.replace("0.6, d: 0.2", "0.6, d: 0.35").replace('"0.6 g"', '"0.9 g"'))
     rows, histories = of[2].rows, of[2].histories
     assert failures(of) == []
     assert rows is not None
