@@ -8,7 +8,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray
 from mbla.results.quantities.group import Field, Group
-from mbla.results.quantities.time_history import BASE_NAME
+from mbla.results.quantities.history_tables import BASE_NAME
 from mbla.results.record.scene import Scene, Values, as_text
 from mbla.solution.time_history.history import PointSpectra
 
