@@ -33,9 +33,9 @@ ENOUGH, SHORTER, SHORTEST = 0.5, 0.7, 0.01
 """Share of e that a step of Newton's method may leave without a shorter one being tried, by what it is shortened, and
 the least share of it."""
 
-NEAR, WORST, FAR = 1e-4, 1e2, 1.0
+NEAR, FAR = 1e-2, 1.0
 """Products of the law that the primal–dual method begins with, over mean weight times free fall in the step: from the
-best motion seen over its e, which counts up to the second, and from the motion without joints."""
+best motion seen, and from the motion without joints."""
 
 
 @dataclass(frozen=True)
@@ -77,7 +77,7 @@ class StepEquations:
         best = self._newton(begin)
         if best.error >= BALANCED:
             near = best.u if np.isfinite(best.error) else begin
-            for start, product in ((near, NEAR * min(best.error, WORST)), (self.alone, FAR)):
+            for start, product in ((near, NEAR), (self.alone, FAR)):
                 found = self._products(start, product * self.product)
                 best = found if found.error < best.error else best
                 if best.error < BALANCED:
