@@ -189,7 +189,7 @@ HISTORIES.fields(
     ),
     velocities=Field("velocity of each, relative to the base", "instant recorded_point axis", unit="speed"),
     accelerations=Field(
-        "acceleration of each, absolute: that of the base is in it", "instant recorded_point axis", unit="acceleration"
+        "absolute acceleration of each, mean since the one before", "instant recorded_point axis", unit="acceleration"
     ),
     openings=Field(
         "greatest opening of each interface that the deck names, between corners that touched as built",

@@ -49,10 +49,9 @@ class Instants:
 
     def after(self, found: RecordedHistories) -> Instants:
         """The same after instants that are on record."""
-        relative = found.accelerations - found.base[:, None, 2]
         rest = (found.openings, found.slips, found.forces)
         times = (found.times[:, None], found.velocity_times[:, None])
-        columns = (*times, found.displacements, found.velocities, relative, *rest)
+        columns = (*times, found.displacements, found.velocities, found.accelerations, *rest)
         return replace(self, kept=list(zip(*columns, strict=True)))
 
     def add(self, state: TimeState, there: Pose, before: TimeState | None, step: DeckStep | None) -> None:
@@ -61,21 +60,23 @@ class Instants:
         moved = there.displacements(blocks, self._owners, self._points)
         moved -= self.rest.displacements(blocks, self._owners, self._points)
         speed = self._speeds(state, there)
-        acceleration = np.zeros_like(speed)
+        middle, history = state.time - 0.5 * state.length, self.bodies.history
+        acceleration = np.zeros_like(speed) + history.base_acceleration(state.time)
         if before is not None:
-            # of the middles of the last steps before both, which may be small ones
-            between = state.time - before.time + 0.5 * (before.length - state.length)
-            acceleration = (speed - self._speeds(before, there)) / between
+            # the middles of the last steps before both, which may be small ones; of the base the mean between them too
+            begin = before.time - 0.5 * before.length
+            gain = history.base_velocity(middle) - history.base_velocity(begin)
+            acceleration = (speed - self._speeds(before, there) + gain) / (middle - begin)
         forces = self._at_rest(state) if step is None else self._forces(step.first.joints, step.first.forces)
         apart = [self._largest(each) for each in self.corners.apart(there)]
-        times = np.array([state.time]), np.array([state.time - 0.5 * state.length])
+        times = np.array([state.time]), np.array([middle])
         self.kept.append((*times, moved, speed, acceleration, *apart, forces))
 
     def result(self) -> RecordedHistories:
         """All instants."""
-        times, middles, moved, speeds, gains, *rest = (np.stack(each) for each in zip(*self.kept, strict=True))
+        times, middles, moved, speeds, accelerations, *rest = (np.stack(each) for each in zip(*self.kept, strict=True))
         base = self._base(times[:, 0])
-        return RecordedHistories(times[:, 0], middles[:, 0], moved, speeds, gains + base[:, None, 2], base, *rest)
+        return RecordedHistories(times[:, 0], middles[:, 0], moved, speeds, accelerations, base, *rest)
 
     def _base(self, times: FloatArray) -> FloatArray:
         """Displacement, velocity and acceleration of the base, (m, 3, 3)."""

@@ -92,9 +92,11 @@ class HistoryCheck:
         largest = max(float(np.abs(found.velocities[:, number]).max(initial=0.0)), SAME * size / self.history.step)
         if not float(np.abs(found.velocities[at, number] - speeds).max(initial=0.0)) <= FAST * largest:
             yield Message("time-histories", f"the velocity of {point.name} is not that of the momentum of its block")
+        ends = frames.times - frames.lengths_before / 2.0, frames.times + frames.lengths / 2.0
         next_one = np.minimum(at + 1, len(found.times) - 1)
         known = ~np.isnan(gains).any(axis=1) & (at + 1 < len(found.times))
-        relative = found.accelerations[next_one, number] - found.base[next_one, 2]
+        shaken = base_changes(self.history, *ends) / (ends[1] - ends[0])[:, None]
+        relative = found.accelerations[next_one, number] - shaken
         largest = max(
             float(np.abs(found.accelerations[:, number]).max(initial=0.0)), largest / self.history.step * FAST
         )

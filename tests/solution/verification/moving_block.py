@@ -346,16 +346,19 @@ def _histories(block: Block, history: TimeHistory, steps: Sequence[Step]) -> Rec
         gain = moves[row] - moves[row - 1]
         between = (states[row].before + states[row - 1].before) / 2.0
         gains[row] = (gain[:3] + np.cross(gain[3:], arms[row])) / between
+    middles = times - np.array([state.before for state in states]) / 2.0
     base = _base(block, times)
+    gains[0] = base[0, 2]
+    gains[1:] += np.diff(_base(block, middles)[:, 1], axis=0) / np.diff(middles)[:, None]
     feet = np.array([state.place + block.arms @ state.turn.T for state in states]) - (block.arms + half)
     forces = np.zeros((n, 1, 3))
     forces[1:, 0] = [step.forces[:, [1, 2, 0]].sum(axis=0) for step in steps[:-1]]
     return RecordedHistories(
         times=times,
-        velocity_times=times - np.array([state.before for state in states]) / 2.0,
+        velocity_times=middles,
         displacements=(top - top[0])[:, None],
         velocities=speeds[:, None],
-        accelerations=(gains + base[:, 2])[:, None],
+        accelerations=gains[:, None],
         base=base,
         openings=feet[:, :, 2].max(axis=1)[:, None],
         slips=np.hypot(feet[:, :, 0], feet[:, :, 1]).max(axis=1)[:, None],
