@@ -12,8 +12,6 @@ from dataclasses import replace
 
 import numpy as np
 import scipy.sparse as sp
-import shapely
-from scipy.optimize import brentq
 
 from mbla.arrays import FloatArray, IntArray
 from mbla.assembly.assembly import Assembly
@@ -23,6 +21,7 @@ from mbla.model.solids.blocks import Blocks
 from mbla.solution.linear_algebra.superlu import negative_pivots
 from mbla.solution.modes.modes import Modes
 from mbla.solution.verification.leaning import left_out_share
+from mbla.solution.verification.pressed_parts import quadrature, same_share
 from mbla.solution.verification.rest import UNBALANCED, AtRest, same, stiffness_of_deck
 from mbla.solution.verification.statics import contact_resultants, left_to_balance, lever_arms
 
@@ -43,9 +42,6 @@ NOTHING = 1e-13
 
 CLOSE = 1e-6
 """By how much below the highest ω² modes are counted, relative: of one frequency some may be left out."""
-
-FAR = 1e3
-"""Size of a half plane over that of what it cuts."""
 
 
 def checked_modes(there: StructureAt, modes: Modes) -> tuple[Modes, tuple[str, ...]]:
@@ -103,18 +99,13 @@ def _wrong_at_rest(there: StructureAt, rest: AtRest, modes: Modes) -> Iterator[s
         yield "interfaces are said to press that are open, or to be open where they press"
 
 
-def same_share(shares: FloatArray, share: float) -> np.ndarray:
-    """Which shares are one but for rounding."""
-    return np.abs(shares - share) <= 1e-9
-
-
 # --- Stiffness ------------------------------------------------------------------------------------------------------
 
 
 def _stiffness(rest: AtRest, modes: Modes) -> sp.csr_array:
     """K of all bodies, (6 n_bodies, 6 n_bodies)."""
     contacts, model = rest.contacts, rest.model
-    interface, places, weights = _quadrature(rest, modes)
+    interface, places, weights = quadrature(rest, modes.pressed)
     laws = [model.joints[name] for name in contacts.joint_names]
     smooth = np.array([law.friction <= 0.0 and law.cohesion <= 0.0 for law in laws], dtype=bool)
     springs = weights[:, None] * rest.stiffness[interface][:, [0, 1, 1]]
@@ -154,70 +145,6 @@ def _of_ties(rest: AtRest) -> sp.csr_array:
         pulls[:, column] = contact_resultants(rest.model, contacts, force).ravel()
     ways = sp.csr_array(pulls)
     return sp.csr_array(ways @ sp.diags_array(rest.points[holds, 0]) @ ways.T)
-
-
-def _quadrature(rest: AtRest, modes: Modes) -> tuple[IntArray, FloatArray, FloatArray]:
-    """Interface, place and area of the points of quadrature on what presses."""
-    contacts = rest.contacts
-    interface, places, weights = [np.zeros(0, dtype=np.int64)], [np.zeros((0, 3))], [np.zeros(0)]
-    for row in np.flatnonzero(modes.pressed > 0.0).tolist():
-        own = slice(int(contacts.point_start[row]), int(contacts.point_start[row + 1]))
-        corners = contacts.points[own][: contacts.outline[row]]
-        frame, centre = contacts.frames[own.start], contacts.centroids[row]
-        outline = (corners - centre) @ frame[1:].T
-        hollow = abs(shapely.Polygon(outline).area - contacts.areas[row]) > 1e-6 * contacts.areas[row]
-        if hollow:
-            holds = rest.pressed[own] > 0.0
-            spots, shares = contacts.points[own][holds], contacts.point_areas[own][holds]
-        else:
-            pieces = [outline] if same_share(modes.pressed[row], 1.0) else _cut(rest, row, outline)
-            here = np.concatenate([np.zeros((0, 2)), *pieces])
-            there = np.concatenate([np.zeros((0, 2)), *(np.roll(piece, -1, axis=0) for piece in pieces)])
-            area = (here[:, 0] * there[:, 1] - there[:, 0] * here[:, 1]) / 2.0
-            middles = np.concatenate([here / 2.0, (here + there) / 2.0, there / 2.0])
-            spots, shares = centre + middles @ frame[1:], np.tile(area / 3.0, 3)
-        interface.append(np.full(len(spots), row))
-        places.append(spots)
-        weights.append(shares)
-    return np.concatenate(interface), np.concatenate(places), np.concatenate(weights)
-
-
-def _cut(rest: AtRest, row: int, outline: FloatArray) -> list[FloatArray]:
-    """The parts of an outline that press: where the plane through the forces of its corners lies above nothing.
-
-    Where a motion has opened the joint it is lifted until it holds what the points carry.
-    """
-    contacts = rest.contacts
-    points = slice(int(contacts.point_start[row]), int(contacts.point_start[row + 1]))
-    law = rest.model.joints[contacts.joint_names[contacts.joints[row]]]
-    stiffness = rest.stiffness[row, 0]
-    height = (law.tensile_strength / stiffness - rest.moved[points, 0])[: len(outline)]
-    plane, *_ = np.linalg.lstsq(np.column_stack([outline, np.ones(len(outline))]), height, rcond=None)
-    if not rest.turned[row]:
-        return _above(outline, plane)
-    volume = float(np.maximum(rest.pressed[points], 0.0).sum()) / stiffness
-
-    def missing(lift: float) -> float:
-        parts = [shapely.Polygon(piece) for piece in _above(outline, plane + np.array([0.0, 0.0, lift]))]
-        heights = [plane @ [part.centroid.x, part.centroid.y, 1.0] + lift for part in parts]
-        return sum(part.area * height for part, height in zip(parts, heights, strict=True)) - volume
-
-    most = 2.0 * volume / shapely.Polygon(outline).area + float(np.ptp(height))
-    low = -float(height.max())
-    lift = brentq(missing, low, low + most, xtol=1e-15 * float(np.ptp(height)), rtol=1e-14)
-    return _above(outline, plane + np.array([0.0, 0.0, lift]))
-
-
-def _above(outline: FloatArray, plane: FloatArray) -> list[FloatArray]:
-    """The parts of an outline where a plane a y_1 + b y_2 + c lies above nothing."""
-    normal = plane[:2] / np.hypot(*plane[:2])
-    foot = -plane[2] / np.hypot(*plane[:2]) * normal
-    size = float(np.linalg.norm(foot)) + FAR * float(np.abs(outline).max())
-    along = np.array([-normal[1], normal[0]])
-    half = [foot - size * along, foot + size * along, foot + size * (along + normal), foot + size * (normal - along)]
-    part = shapely.Polygon(outline).intersection(shapely.Polygon(half))
-    pieces = [piece for piece in shapely.get_parts(part) if piece.geom_type == "Polygon" and piece.area > 0.0]
-    return [np.array(shapely.geometry.polygon.orient(piece).exterior.coords)[:-1] for piece in pieces]
 
 
 # --- Masses ---------------------------------------------------------------------------------------------------------
