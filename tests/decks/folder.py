@@ -83,6 +83,7 @@ LONG = (
     "time_histories/block_under_pulses",
     "time_histories/column_of_drums",
     "time_histories/facade_under_record",
+    "tutorials/arch_in_soil",
     "tutorials/arch_on_piers",
     "tutorials/arch_that_spreads",
     "tutorials/assessed_facade",
@@ -116,7 +117,7 @@ LONG = (
     "tutorials/walls_at_a_corner",
 )  # fmt: skip
 """take long, or show once more what another shows: run by ``pytest -m long`` only, as the folder of regressions is"""
-EACH = 3
+EACH = 5
 """of the other benchmarks, most of whose closed forms ``tests/analytic`` holds, each of so many is short"""
 
 

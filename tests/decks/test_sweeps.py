@@ -244,7 +244,7 @@ def test_a_wider_opening_weakens_the_wall_only_where_its_lintel_ends_badly() -> 
     assert found[6, 0.4, 8] < 0.91 * SOLID < SOLID < found[6, 0.4, 9]
 
 
-@pytest.mark.long
+@pytest.mark.trust
 def test_the_whole_sweep_of_the_opening() -> None:
     finished, rows = whole_sweep("wall_opening")
     assert finished.exit_code == 0
@@ -280,7 +280,7 @@ def check_prestwood(rows: Sequence[Row]) -> None:
 
 @pytest.mark.long
 def test_prestwood_with_weak_and_with_strong_soil() -> None:
-    chosen = {(27, 0, 20, 0.3), (33, 10, 27, 0.3), (30, 5, 20, 0.4)}
+    chosen = {(27, 0, 20, 0.3), (33, 10, 27, 0.3)}
     rows = solve_some(
         prepared_sweep("prestwood"),
         lambda row: tuple(number(row, name) for name in ("phi", "c", "delta", "size")) in chosen,

@@ -26,7 +26,7 @@ from tests.properties.transformations import TABLE
 
 FEW = ("benchmarks/closed_forms/groove", "benchmarks/closed_forms/eccentric_compression", "random/302")
 """a wedge between two planes, a joint that crushes, and friction that locks resultants of interfaces"""
-EVERY = 6
+EVERY = 10
 """of the other scenes one of so many is taken"""
 SURFACE = "benchmarks/formats/arch_on_faces_of_another_file"
 """stands on surfaces that end, which move with it"""

@@ -38,7 +38,7 @@ def test_resultants_are_within_as_verification_has_it(outline: tuple[tuple[float
     found = crushing_of(line.program, interfaces)
     assert found is not None
     (pieces,) = found.pieces
-    rng, n = np.random.default_rng(5), 4000
+    rng, n = np.random.default_rng(5), 1000
     force, rho = line.program.scaling.force, float(interfaces.radii[0])
     full = float(interfaces.compression[0])
     normal = rng.uniform(-0.2, 1.1, n) * full
@@ -52,7 +52,7 @@ def test_resultants_are_within_as_verification_has_it(outline: tuple[tuple[float
     at_interface = np.zeros((n, 6))
     at_interface[:, [0, 4, 5]] = np.stack([normal, moments[1], -moments[0]], axis=1)
     beyond = crushing_excess(laws, at_interface)
-    assert 200 < (within > 0.0).sum() < n - 200
+    assert 50 < (within > 0.0).sum() < n - 50
     np.testing.assert_array_equal(within > 0.0, beyond < 0.0)
 
 

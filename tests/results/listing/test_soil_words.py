@@ -15,7 +15,18 @@ from mbla.results.listing.text import section_lines
 from mbla.results.listing.verdict_words import NO_RANGE, OF_SOIL, soil_flow_words
 from tests.model.soil.decks import ARCH, BACKFILL, GROUND, WALL, fill, model
 
-DECK = Path(__file__).parents[3] / "decks" / "tutorials" / "arch_in_soil.yaml"
+DECK = """mbla: 1
+materials: {stone: {density: 2000}, earth: {density: 1800}}
+joints: {dry: {friction: 0.6}}
+blocks:
+  - box: {group: base, material: stone, min: [0, 0, 0], max: [3, 1, 1]}
+contacts: {joint: dry}
+supports: [{blocks: base}]
+fill: {soil: {on: base, material: earth, level: 2, cells: {size: 1}, friction_angle: 10}}
+load_cases:
+  strip: {live: [{travel: {force: [0, 0, -1], contact: 0.5, path: [[1, 0.5, 2], [2, 0.5, 2]], positions: 2}}]}
+analysis: {soil_range: false}
+"""
 
 
 def test_counts_tell_soil_beside_blocks(tmp_path: Path) -> None:
@@ -56,7 +67,7 @@ def test_the_model_lists_soil_apart(tmp_path: Path) -> None:
 
 def test_the_figure_of_soil_is_told_as_that_of_associative_flow() -> None:
     rules = ("analysis.flow_rule=associative", "analysis.flow_rule=non_associative")
-    by_bounds, by_path = (mbla.run(DECK, set=[each, "analysis.soil_range=false"]).records for each in rules)
+    by_bounds, by_path = (mbla.run(DECK, set=[each]).records for each in rules)
     assert soil_flow_words(by_bounds.model, by_bounds.cases[0]) == OF_SOIL + NO_RANGE
     assert OF_SOIL[:40] in "\n".join(summary_lines(by_bounds))
     assert not soil_flow_words(by_path.model, by_path.cases[0])

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from mbla.results.listing.text import within
+from mbla.results.results import CaseResult
 from mbla.solution.pushover.curve import curve_of
 from mbla.solution.pushover.record import RowPoints
 from tests.line import HEAD, case_of, line_of
@@ -31,12 +32,18 @@ fill: {f: {on: a, material: soil, level: 1.5, passive: {friction_angle: 30, mobi
 """A wedge that slides on the ground against soil: weights, friction and passive force do not change on the way."""
 
 
-def test_a_wedge_that_slides_keeps_its_load_factor_to_the_end() -> None:
-    _, case = case_of(WEDGE, "load_cases.c.pushover.until=0.02")
-    factors = [row.load_factor for row in case.solution.further.pushover.curve]
+@pytest.fixture(scope="module")
+def slides() -> CaseResult:
+    """The wedge, by 0.02 m."""
+    return case_of(WEDGE, "load_cases.c.pushover.until=0.02")[1]
+
+
+def test_a_wedge_that_slides_keeps_its_load_factor_to_the_end(slides: CaseResult) -> None:
+    curve = slides.solution.further.pushover.curve
+    factors = [row.load_factor for row in curve]
     assert factors == pytest.approx([13.55251] * len(factors), rel=1e-6)
-    assert case.solution.further.pushover.curve[-1].displacement == pytest.approx(0.02, rel=1e-6)
-    assert max(row.residual for row in case.solution.further.pushover.curve) < 1e-6
+    assert curve[-1].displacement == pytest.approx(0.02, rel=1e-6)
+    assert max(row.residual for row in curve) < 1e-6
 
 
 @pytest.mark.parametrize(
@@ -63,12 +70,9 @@ def test_where_a_curve_is_to_end_does_not_change_it(
 
 
 @pytest.mark.parametrize("what", ["friction", "pose", "load factor", "history"])
-def test_a_row_that_is_changed_is_not_verified(what: str) -> None:
+def test_a_row_that_is_changed_is_not_verified(slides: CaseResult, what: str) -> None:
     """Forces, pose, load factor and history of a row belong together."""
-    line, (_, case) = (
-        line_of(WEDGE, "load_cases.c.pushover.until=0.02"),
-        case_of(WEDGE, "load_cases.c.pushover.until=0.02"),
-    )
+    line, case = line_of(WEDGE, "load_cases.c.pushover.until=0.02"), slides
     rows, last = case.solution.further.pushover.rows, -1
     assert rows is not None
     own = slice(int(rows.point_start[-2]), int(rows.point_start[-1]))
