@@ -30,6 +30,8 @@ ENERGIES = (
 """in the rows of steps: name, words, colour, line"""
 SEEN = 1e-3
 """of the largest energy, from which another is drawn"""
+TICKS = [part * 10.0**power for power in range(-6, 4) for part in (1.0, 2.0, 5.0)]
+"""of spectra"""
 MOST_LINES = 8
 """points that are drawn"""
 
@@ -162,6 +164,10 @@ def _spectra(sheet: Diagrams, axes: Any, scene: PictureScene, asked: TimeHistory
             axes.plot(spectra.periods, spectra.points[row, :, axis] / gravity, label=label, **look)
     axes.set_xscale("log")
     axes.set_yscale("log")
+    for axis, limits in ((axes.xaxis, axes.get_xlim()), (axes.yaxis, axes.get_ylim())):
+        axis.set_ticks([tick for tick in TICKS if limits[0] <= tick <= limits[1]])
+        axis.set_ticks([], minor=True)
+        axis.set_major_formatter("{x:g}")
     _legend(page, axes)
 
 
