@@ -11,7 +11,7 @@ import pytest
 from mbla.results.record.json_record import results_json
 from mbla.results.record.json_values import json_line
 from mbla.solution.solution import Status
-from tests.results.rocking import rocking_case
+from tests.results.rocking import rocking_case, rocks
 from tests.results.synthetic import tower_results
 
 RESULTS = tower_results()
@@ -36,6 +36,14 @@ def test_figures() -> None:
     assert found["motions"][0]["peak_displacement"] == pytest.approx(0.628, abs=1e-3)
     assert [point["name"] for point in found["points"]] == ["middle"]
     assert found["points"][0]["peak"] == pytest.approx(found["peak"])
+
+
+def test_the_peak_of_spectra_of_a_point() -> None:
+    spectra = rocks().spectra
+    assert spectra is not None
+    found = record_of()["points"][0]["spectral_peak"]
+    row = spectra.periods.tolist().index(found["period"])
+    assert found["value"] == spectra.points[0, row, "xyz".index(found["axis"])] == spectra.points.max()
 
 
 def test_what_is_no_result_has_no_figures() -> None:

@@ -14,6 +14,7 @@ from mbla.results.quantities.registry import BLOCK_COLUMNS, CASE_COLUMNS, INTERF
 from mbla.results.results import Results
 from mbla.results.tables.tables import TABLES, tables_of
 from mbla.solution.solution import Status
+from tests.results.rocking import rocking_case, rocks
 from tests.results.synthetic import tower_results
 
 
@@ -58,6 +59,16 @@ def test_rows_are_blocks_interfaces_and_points_for_each_case(results: Results) -
         "series": 0,
         "notices": len(notices_of(results)),
     }
+
+
+def test_spectra_are_those_of_the_base_and_then_of_points() -> None:
+    results, spectra = tower_results(), rocks().spectra
+    assert spectra is not None
+    table = tables_of(replace(results, cases=(rocking_case(results.cases[0]),)), ["spectra"])["spectra"]
+    n = len(spectra.periods)
+    assert table["point"].tolist() == ["base"] * n + ["middle"] * n
+    assert np.array_equal(table["period"], np.tile(spectra.periods, 2))
+    assert np.array_equal(table["spectral_acceleration_x"], np.append(spectra.base[:, 0], spectra.points[0, :, 0]))
 
 
 def test_the_best_iterate_is_no_result(results: Results) -> None:

@@ -29,6 +29,7 @@ def test_sections_say_what_it_was_moved_by_what_it_did_and_what_it_took() -> Non
         "residual displacement 0.001 m, tower[0] (+- 0.0002)",
         "largest opening 0.0637 m, base[0] and tower[0]",
         "middle tower[0] 0.0713 0.4",
+        "Peaks of response spectra, 5 % damping, periods from 0.1 to 4 s: point along x [g] along y [g] along z [g]",
         "dry 2 0.0637 base[0] and tower[0]",
         "work of the base 0.3793 0.1963",
         "They balance to 0.0e+00 of the largest",
