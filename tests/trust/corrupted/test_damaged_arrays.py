@@ -24,7 +24,7 @@ from tests.results.changed_files import changing, image_of_run
 from tests.test_verify_pushover import ROCKS
 from tests.trust.corrupted.spoiling import datasets
 
-NUMBER = 8
+NUMBER = 4
 """of damaged arrays in the short test"""
 DAMAGE: Mapping[str, Callable[[Any], Any]] = {
     "negative": lambda values: np.full_like(values, -5),
