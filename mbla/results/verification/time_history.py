@@ -1,6 +1,6 @@
 """What a time history in a file shows, and what it says that only the run can know.
 
-Its frames, rows, histories and peaks are derived anew before (:mod:`mbla.solution.verification.time_history`). Here
+Its frames, rows, histories and peaks are derived anew before (:mod:`mbla.solution.verification.in_time.history`). Here
 they are held against what the deck asks for, its joint laws and its status.
 """
 

@@ -10,7 +10,7 @@ from mbla.results.collapse.motion import history_motion
 from mbla.results.record.scene import Scene
 from mbla.results.vtu.meshes import Mesh, frame_mesh
 from mbla.solution.time_history.frames import Frames
-from mbla.solution.verification.time_bodies import MovedSolids, Solids, solids_of
+from mbla.solution.verification.in_time.bodies import MovedSolids, Solids, solids_of
 
 
 @dataclass(frozen=True)

@@ -12,10 +12,10 @@ from mbla.model.pose import Pose
 from mbla.model.ties.moved import TieHistory
 from mbla.solution.pushover.pose.moved_joints import MovedJoints
 from mbla.solution.pushover.way import RATIO
-from mbla.solution.time_history.energies import Energies
 from mbla.solution.time_history.history import TimeHistoryResult
-from mbla.solution.time_history.moving_bodies import MovingBodies
-from mbla.solution.time_history.time_state import StepCounts, TimeState
+from mbla.solution.time_history.step.energies import Energies
+from mbla.solution.time_history.step.moving_bodies import MovingBodies
+from mbla.solution.time_history.step.time_state import StepCounts, TimeState
 
 
 @dataclass(frozen=True)

@@ -19,19 +19,19 @@ from mbla.solution.pushover.rest import at_rest
 from mbla.solution.pushover.way import RATIO
 from mbla.solution.settings import SolverSettings
 from mbla.solution.time_history.checkpoint import Checkpoint, Unfinished
-from mbla.solution.time_history.dashpots import dashpots_of, first_period
 from mbla.solution.time_history.frame_record import FrameKeeper
 from mbla.solution.time_history.greatest import Greatest
 from mbla.solution.time_history.history import HalfStep, TimeHistoryResult
 from mbla.solution.time_history.instants import Instants
-from mbla.solution.time_history.march import DeckStep, March
-from mbla.solution.time_history.moving_bodies import MovingBodies
 from mbla.solution.time_history.point_spectra import point_spectra
 from mbla.solution.time_history.progress import TimeProgress
 from mbla.solution.time_history.remarks import history_remarks
 from mbla.solution.time_history.row_keeper import RowKeeper
+from mbla.solution.time_history.step.dashpots import dashpots_of, first_period
+from mbla.solution.time_history.step.march import DeckStep, March
+from mbla.solution.time_history.step.moving_bodies import MovingBodies
+from mbla.solution.time_history.step.time_state import TimeState
 from mbla.solution.time_history.step_rows import HistoryEnd
-from mbla.solution.time_history.time_state import TimeState
 
 WINDOW = 0.1
 """Share of the duration, at its end, over which it is seen whether the residual displacement still varies."""

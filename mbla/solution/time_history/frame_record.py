@@ -9,9 +9,9 @@ import numpy as np
 from mbla.arrays import BoolArray, FloatArray, starts
 from mbla.solution.pushover.pose.moved_joints import MovedJoints
 from mbla.solution.time_history.frames import Frames, PointSet
-from mbla.solution.time_history.moving_bodies import MovingBodies
-from mbla.solution.time_history.solved_velocities import BALANCED
-from mbla.solution.time_history.time_step import StepMade
+from mbla.solution.time_history.step.moving_bodies import MovingBodies
+from mbla.solution.time_history.step.solved_velocities import BALANCED
+from mbla.solution.time_history.step.time_step import StepMade
 
 
 @dataclass(frozen=True)

@@ -13,10 +13,10 @@ from mbla.model.pose import Pose
 from mbla.solution.law.return_map import JointForces, joint_forces
 from mbla.solution.time_history.as_built import CornersAsBuilt
 from mbla.solution.time_history.history import RecordedHistories
-from mbla.solution.time_history.joints_in_step import JointsInStep
-from mbla.solution.time_history.march import DeckStep
-from mbla.solution.time_history.moving_bodies import MovingBodies
-from mbla.solution.time_history.time_state import TimeState
+from mbla.solution.time_history.step.joints_in_step import JointsInStep
+from mbla.solution.time_history.step.march import DeckStep
+from mbla.solution.time_history.step.moving_bodies import MovingBodies
+from mbla.solution.time_history.step.time_state import TimeState
 
 Instant = tuple[FloatArray, ...]
 

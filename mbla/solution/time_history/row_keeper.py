@@ -7,9 +7,9 @@ from dataclasses import astuple, dataclass, field, fields
 import numpy as np
 
 from mbla.arrays import IntArray
-from mbla.solution.time_history.march import DeckStep
+from mbla.solution.time_history.step.march import DeckStep
+from mbla.solution.time_history.step.time_state import TimeState
 from mbla.solution.time_history.step_rows import StepRows
-from mbla.solution.time_history.time_state import TimeState
 
 
 @dataclass

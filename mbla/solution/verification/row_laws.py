@@ -14,7 +14,7 @@ from mbla.deck.sections.contacts import ContactsSection
 from mbla.model.model import LoadCase, Model
 from mbla.solution.pushover.record import PushedRows
 from mbla.solution.time_history.frames import Frames
-from mbla.solution.verification.time_bodies import solids_of
+from mbla.solution.verification.in_time.bodies import solids_of
 
 
 def row_of_another_law(assembly: Assembly, section: ContactsSection, case: LoadCase, rows: PushedRows) -> int | None:

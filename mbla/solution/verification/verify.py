@@ -26,6 +26,7 @@ from mbla.solution.modes.modes import NO_MODES
 from mbla.solution.solution import Checks, Solution, Standing, Status
 from mbla.solution.verification.case import LoadedModel
 from mbla.solution.verification.elastic_law import elastic_residual
+from mbla.solution.verification.in_time.history import history_failures
 from mbla.solution.verification.least import least_check
 from mbla.solution.verification.lock import lock_failures
 from mbla.solution.verification.modes import checked_modes
@@ -33,7 +34,6 @@ from mbla.solution.verification.residuals import residuals_of
 from mbla.solution.verification.standing import standing_failures
 from mbla.solution.verification.strengths import point_strengths
 from mbla.solution.verification.tilting_table import never_failures, tilt_failures
-from mbla.solution.verification.time_history import history_failures
 from mbla.solution.verification.verify_convex import (
     InterfaceCase,
     convex_lock_failures,

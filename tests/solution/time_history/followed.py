@@ -17,14 +17,14 @@ from mbla.solution.pushover.rest import at_rest
 from mbla.solution.pushover.way import RATIO
 from mbla.solution.settings import settings_for, solver_settings
 from mbla.solution.time_history.checkpoint import Unfinished
-from mbla.solution.time_history.dashpots import dashpots_of
 from mbla.solution.time_history.follow import Followed, follow
 from mbla.solution.time_history.history import TimeHistoryResult
-from mbla.solution.time_history.march import March
-from mbla.solution.time_history.moving_bodies import MovingBodies
 from mbla.solution.time_history.progress import TimeProgress
+from mbla.solution.time_history.step.dashpots import dashpots_of
+from mbla.solution.time_history.step.march import March
+from mbla.solution.time_history.step.moving_bodies import MovingBodies
+from mbla.solution.time_history.step.time_state import TimeState
 from mbla.solution.time_history.step_rows import StepRows
-from mbla.solution.time_history.time_state import TimeState
 
 
 def deck_text(blocks: str, history: str, joint: str = "friction: 0.6", more: str = "") -> str:

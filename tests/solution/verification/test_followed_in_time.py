@@ -17,9 +17,9 @@ from mbla.solution.settings import settings_for, solver_settings
 from mbla.solution.time_history.follow import follow
 from mbla.solution.time_history.history import TimeHistoryResult
 from mbla.solution.time_history.step_rows import HistoryEnd
-from mbla.solution.verification.time_bodies import MovedSolids, solids_of
-from mbla.solution.verification.time_history import history_failures
-from mbla.solution.verification.time_overlaps import deepest_corner
+from mbla.solution.verification.in_time.bodies import MovedSolids, solids_of
+from mbla.solution.verification.in_time.history import history_failures
+from mbla.solution.verification.in_time.overlaps import deepest_corner
 
 Followed = tuple[Assembly, LoadCase, TimeHistoryResult]
 

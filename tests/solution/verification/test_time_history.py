@@ -12,9 +12,9 @@ from mbla.arrays import FloatArray
 from mbla.model.motion.signal import Signal
 from mbla.solution.time_history.history import TimeHistoryResult
 from mbla.solution.time_history.step_rows import HistoryEnd
-from mbla.solution.verification.time_bodies import second_moments
-from mbla.solution.verification.time_history import TimeChecks, history_failures
-from mbla.solution.verification.time_motion import integrals
+from mbla.solution.verification.in_time.bodies import second_moments
+from mbla.solution.verification.in_time.history import TimeChecks, history_failures
+from mbla.solution.verification.in_time.motion import integrals
 from tests.line import line_of
 from tests.solution.structures import deck, prism
 from tests.solution.verification.moving_block import G, Shaken, shaken

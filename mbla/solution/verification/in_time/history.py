@@ -18,17 +18,17 @@ from mbla.model.model import LoadCase
 from mbla.solution.time_history.frames import Frames
 from mbla.solution.time_history.history import TimeHistoryResult
 from mbla.solution.time_history.step_rows import HistoryEnd
-from mbla.solution.verification.time_bodies import MovedSolids, Solids, solids_of
-from mbla.solution.verification.time_following import following_failures
-from mbla.solution.verification.time_frames import FrameCheck, FrameResidual
-from mbla.solution.verification.time_joints import points_failures
-from mbla.solution.verification.time_overlaps import deepest_corner
-from mbla.solution.verification.time_peaks import PeakCheck
-from mbla.solution.verification.time_points import HistoryCheck
-from mbla.solution.verification.time_rows import RowResidual, row_residual
-from mbla.solution.verification.time_said import end_failures, frames_failures, said_failures
-from mbla.solution.verification.time_spectra import spectra_failures
-from mbla.solution.verification.time_works import works, works_failures
+from mbla.solution.verification.in_time.bodies import MovedSolids, Solids, solids_of
+from mbla.solution.verification.in_time.following import following_failures
+from mbla.solution.verification.in_time.frames import FrameCheck, FrameResidual
+from mbla.solution.verification.in_time.joints import points_failures
+from mbla.solution.verification.in_time.overlaps import deepest_corner
+from mbla.solution.verification.in_time.peaks import PeakCheck
+from mbla.solution.verification.in_time.points import HistoryCheck
+from mbla.solution.verification.in_time.rows import RowResidual, row_residual
+from mbla.solution.verification.in_time.said import end_failures, frames_failures, said_failures
+from mbla.solution.verification.in_time.spectra import spectra_failures
+from mbla.solution.verification.in_time.works import works, works_failures
 
 LAW = 1e-3
 """Force off the law over the largest of the frame."""

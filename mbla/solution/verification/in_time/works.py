@@ -18,11 +18,11 @@ import numpy as np
 from mbla.arrays import FloatArray, summed
 from mbla.errors import Message
 from mbla.solution.time_history.step_rows import StepRows
-from mbla.solution.verification.time_bodies import MovedSolids
-from mbla.solution.verification.time_contact import FrameContact
-from mbla.solution.verification.time_frames import FrameCheck
-from mbla.solution.verification.time_loads import dead_wrenches, force_wrenches, on_bodies, senses, tie_limits
-from mbla.solution.verification.time_rows import energy_scale, rows_of_frames, whole_steps
+from mbla.solution.verification.in_time.bodies import MovedSolids
+from mbla.solution.verification.in_time.contact import FrameContact
+from mbla.solution.verification.in_time.frames import FrameCheck
+from mbla.solution.verification.in_time.loads import dead_wrenches, force_wrenches, on_bodies, senses, tie_limits
+from mbla.solution.verification.in_time.rows import energy_scale, rows_of_frames, whole_steps
 
 KINDS = ("base", "friction", "contacts", "ties", "forces", "elastic")
 """columns of the rows that follow from a frame; the last as it is after the step, the others by their change"""

@@ -14,7 +14,7 @@ from scipy.sparse.linalg import ArpackError, eigsh
 
 from mbla.arrays import FloatArray
 from mbla.solution.pushover.pose.moved_joints import JointsAt, MovedJoints
-from mbla.solution.time_history.moving_bodies import MovingBodies
+from mbla.solution.time_history.step.moving_bodies import MovingBodies
 
 DENSE = 60
 """Unknowns up to which all periods are found at once."""

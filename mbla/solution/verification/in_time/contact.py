@@ -11,8 +11,8 @@ from mbla.model.model import Model
 from mbla.model.ties.moved import moved_ties, tie_lengths
 from mbla.model.ties.ties import Ties
 from mbla.solution.time_history.frames import Frames, PointSet
-from mbla.solution.verification.time_bodies import MovedSolids
-from mbla.solution.verification.time_loads import add_forces, senses, tie_limits, tie_points
+from mbla.solution.verification.in_time.bodies import MovedSolids
+from mbla.solution.verification.in_time.loads import add_forces, senses, tie_limits, tie_points
 
 
 @dataclass(frozen=True)

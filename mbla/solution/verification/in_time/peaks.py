@@ -19,10 +19,10 @@ from mbla.model.motion.time_history import TimeHistory
 from mbla.solution.time_history.frames import Frames
 from mbla.solution.time_history.history import Peaks
 from mbla.solution.time_history.step_rows import StepRows
-from mbla.solution.verification.time_bodies import Solids, rotations_of
-from mbla.solution.verification.time_loads import free_fall
-from mbla.solution.verification.time_points import openings_and_slips
-from mbla.solution.verification.time_said import SAME
+from mbla.solution.verification.in_time.bodies import Solids, rotations_of
+from mbla.solution.verification.in_time.loads import free_fall
+from mbla.solution.verification.in_time.points import openings_and_slips
+from mbla.solution.verification.in_time.said import SAME
 
 FALLEN, TILTED = 0.5, np.pi / 3.0
 """Share of its height by which a block is lower that has fallen, and angle by which one is tilted that turns over."""

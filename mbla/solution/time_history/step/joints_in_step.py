@@ -21,7 +21,7 @@ from mbla.solution.law.joint_equations import JointStep
 from mbla.solution.law.masses import Masses
 from mbla.solution.law.return_map import JointForces
 from mbla.solution.pushover.pose.moved_joints import JointsAt, MovedJoints
-from mbla.solution.time_history.time_state import TimeState
+from mbla.solution.time_history.step.time_state import TimeState
 
 
 @dataclass(frozen=True)

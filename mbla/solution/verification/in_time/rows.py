@@ -3,7 +3,7 @@
 The energy that bodies gain is what base and forces do less what joints take, in every row. Kinetic energy follows from
 the momenta of frames, with the inertia half a step before; what the dead load gains from the poses, and from where mass
 centres were half a step before: energies are those then. What a step does is derived from frames where it was made at
-once (:mod:`mbla.solution.verification.time_works`).
+once (:mod:`mbla.solution.verification.in_time.works`).
 """
 
 from __future__ import annotations
@@ -17,8 +17,8 @@ from mbla.model.model import LoadCase
 from mbla.model.motion.time_history import TimeHistory
 from mbla.solution.time_history.frames import Frames
 from mbla.solution.time_history.step_rows import StepRows
-from mbla.solution.verification.time_bodies import MovedSolids, Solids, spins_before
-from mbla.solution.verification.time_motion import base_changes
+from mbla.solution.verification.in_time.bodies import MovedSolids, Solids, spins_before
+from mbla.solution.verification.in_time.motion import base_changes
 
 SAME_TIME = 1e-9
 """Difference of two instants over the step of the deck that is none."""

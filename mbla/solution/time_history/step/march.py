@@ -7,11 +7,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from mbla.solution.time_history.moving_bodies import MovingBodies
-from mbla.solution.time_history.renewed_contacts import renewed
-from mbla.solution.time_history.solved_velocities import BALANCED
-from mbla.solution.time_history.time_state import TimeState
-from mbla.solution.time_history.time_step import FreeFlight, StepMade, free_flight, step_in_time
+from mbla.solution.time_history.step.moving_bodies import MovingBodies
+from mbla.solution.time_history.step.renewed_contacts import renewed
+from mbla.solution.time_history.step.solved_velocities import BALANCED
+from mbla.solution.time_history.step.time_state import TimeState
+from mbla.solution.time_history.step.time_step import FreeFlight, StepMade, free_flight, step_in_time
 
 PARTS, AHEAD, FAST = 8, 1.5, 2.0
 """Small steps at an impact; steps within which a point closes there, and its speed over free fall in a step."""

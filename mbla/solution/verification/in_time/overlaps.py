@@ -11,7 +11,7 @@ import numpy as np
 
 from mbla.arrays import FloatArray, IntArray
 from mbla.model.model import Model
-from mbla.solution.verification.time_bodies import MovedSolids
+from mbla.solution.verification.in_time.bodies import MovedSolids
 
 ROWS = 1000
 """Blocks whose boxes are held against all others at a time."""

@@ -19,7 +19,7 @@ from mbla.errors import Message
 from mbla.model.motion.spectrum import DAMPING, PERIODS
 from mbla.model.motion.time_history import TimeHistory
 from mbla.solution.time_history.history import STEPS_IN_PERIOD, PointSpectra, RecordedHistories
-from mbla.solution.verification.time_motion import base_changes
+from mbla.solution.verification.in_time.motion import base_changes
 
 SAME = 0.01
 """Difference of two spectra over the greatest of their curve: 0.2 % of a peak are lost between two looks at it."""

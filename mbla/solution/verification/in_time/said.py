@@ -13,10 +13,10 @@ from mbla.model.motion.time_history import TimeHistory
 from mbla.solution.time_history.frames import Frames
 from mbla.solution.time_history.history import Peaks, TimeHistoryResult
 from mbla.solution.time_history.step_rows import HistoryEnd, StepRows
-from mbla.solution.verification.time_bodies import Solids
-from mbla.solution.verification.time_loads import free_fall
-from mbla.solution.verification.time_motion import base_displacements
-from mbla.solution.verification.time_rows import rows_of_frames
+from mbla.solution.verification.in_time.bodies import Solids
+from mbla.solution.verification.in_time.loads import free_fall
+from mbla.solution.verification.in_time.motion import base_displacements
+from mbla.solution.verification.in_time.rows import rows_of_frames
 
 SAME = 1e-6
 """Difference of two figures, over the greatest of their kind, that are one."""

@@ -13,9 +13,9 @@ from collections.abc import Iterator
 import numpy as np
 
 from mbla.errors import Message
-from mbla.solution.verification.time_bodies import MovedSolids, rotations_of
-from mbla.solution.verification.time_frames import FrameCheck
-from mbla.solution.verification.time_rows import SAME_TIME
+from mbla.solution.verification.in_time.bodies import MovedSolids, rotations_of
+from mbla.solution.verification.in_time.frames import FrameCheck
+from mbla.solution.verification.in_time.rows import SAME_TIME
 
 GOES_ON = 1e-6
 """Difference over the greatest momentum, size of bodies, or force, up to which the one goes on as the other."""

@@ -15,9 +15,9 @@ from mbla.solution.law.elastic_joints import within
 from mbla.solution.pushover.inherited import sources, turned
 from mbla.solution.pushover.pose.moved_joints import History, MovedJoints
 from mbla.solution.pushover.renewal import is_stale
-from mbla.solution.time_history.dashpots import dashpots_of
-from mbla.solution.time_history.moving_bodies import MovingBodies
-from mbla.solution.time_history.time_state import TimeState
+from mbla.solution.time_history.step.dashpots import dashpots_of
+from mbla.solution.time_history.step.moving_bodies import MovingBodies
+from mbla.solution.time_history.step.time_state import TimeState
 
 
 def renewed(bodies: MovingBodies, state: TimeState, of_all: float) -> TimeState:

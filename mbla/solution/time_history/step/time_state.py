@@ -12,7 +12,7 @@ from mbla.model.pose import Pose
 from mbla.model.ties.moved import TieHistory
 from mbla.solution.pushover.place import PushedPlace
 from mbla.solution.pushover.pose.moved_joints import JointsAt, MovedJoints
-from mbla.solution.time_history.energies import Energies
+from mbla.solution.time_history.step.energies import Energies
 
 
 @dataclass(frozen=True)

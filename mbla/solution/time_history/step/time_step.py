@@ -6,8 +6,8 @@ those of the beginning, inertia that of half a step ahead::
     M (v − v_f) = h̄ Gᵀ x,   M v_f = p + h̄ f − M ΔV_g,   h̄ = (h + h₋)/2,   ΔV_g = V_g(t + h/2) − V_g(t − h₋/2)
     c ← c + h v,   R ← exp(h [ω]×) R,   L = J ω
 
-x are the forces of the joints (:mod:`mbla.solution.time_history.joints_in_step`). The velocities that count are those
-of their impulses, so that momentum is kept whatever the equations are solved to (Moreau 1988,
+x are the forces of the joints (:mod:`mbla.solution.time_history.step.joints_in_step`). The velocities that count are
+those of their impulses, so that momentum is kept whatever the equations are solved to (Moreau 1988,
 doi:10.1007/978-3-7091-2624-0_1, for the velocity as unknown). h₋ is the step before, 0 at first: with h̄ in both a
 structure at rest stays so when steps change their length.
 """
@@ -26,11 +26,11 @@ from mbla.solution.law.return_map import JointForces
 from mbla.solution.linear_algebra.stiffness import Entries
 from mbla.solution.pushover.place import Energy, PushedPlace, ties_after
 from mbla.solution.pushover.pose.moved_joints import History
-from mbla.solution.time_history.energies import Energies, powers
-from mbla.solution.time_history.joints_in_step import JointsInStep
-from mbla.solution.time_history.moving_bodies import MovingBodies
-from mbla.solution.time_history.solved_velocities import Solved, StepEquations
-from mbla.solution.time_history.time_state import TimeState
+from mbla.solution.time_history.step.energies import Energies, powers
+from mbla.solution.time_history.step.joints_in_step import JointsInStep
+from mbla.solution.time_history.step.moving_bodies import MovingBodies
+from mbla.solution.time_history.step.solved_velocities import Solved, StepEquations
+from mbla.solution.time_history.step.time_state import TimeState
 
 
 @dataclass(frozen=True)

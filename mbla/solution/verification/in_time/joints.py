@@ -18,8 +18,8 @@ from mbla.contacts.contacts import Contacts
 from mbla.errors import Message
 from mbla.model.model import Joint, LoadCase
 from mbla.solution.time_history.frames import Frames, PointSet
+from mbla.solution.verification.in_time.bodies import Solids
 from mbla.solution.verification.points_on_bodies import distances_from_bodies
-from mbla.solution.verification.time_bodies import Solids
 
 AWAY = 0.05
 """Distance of a contact point from its body, over the size of the body, beyond which it is not on the body."""

@@ -23,16 +23,16 @@ from mbla.model.model import LoadCase
 from mbla.model.motion.time_history import TimeHistory
 from mbla.model.pose import moved_model
 from mbla.solution.time_history.frames import Frames
-from mbla.solution.verification.statics import left_to_balance
-from mbla.solution.verification.time_bodies import MovedSolids, Solids, rotations_of, spins_before
-from mbla.solution.verification.time_contact import FrameContact
-from mbla.solution.verification.time_loads import (
+from mbla.solution.verification.in_time.bodies import MovedSolids, Solids, rotations_of, spins_before
+from mbla.solution.verification.in_time.contact import FrameContact
+from mbla.solution.verification.in_time.loads import (
     dead_wrenches,
     force_wrenches,
     free_fall,
     on_bodies,
 )
-from mbla.solution.verification.time_motion import base_changes, integrals
+from mbla.solution.verification.in_time.motion import base_changes, integrals
+from mbla.solution.verification.statics import left_to_balance
 
 
 @dataclass(frozen=True)

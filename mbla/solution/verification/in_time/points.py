@@ -16,10 +16,10 @@ from mbla.model.motion.time_history import RecordedPoint, TimeHistory
 from mbla.solution.time_history.frames import Frames
 from mbla.solution.time_history.history import RecordedHistories
 from mbla.solution.time_history.step_rows import StepRows
-from mbla.solution.verification.time_bodies import MovedSolids, Solids, rotations_of, spins_before
-from mbla.solution.verification.time_motion import base_changes, base_displacements
-from mbla.solution.verification.time_rows import rows_of_frames
-from mbla.solution.verification.time_said import SAME, same
+from mbla.solution.verification.in_time.bodies import MovedSolids, Solids, rotations_of, spins_before
+from mbla.solution.verification.in_time.motion import base_changes, base_displacements
+from mbla.solution.verification.in_time.rows import rows_of_frames
+from mbla.solution.verification.in_time.said import SAME, same
 
 FAST = 1e-3
 """Difference of two velocities, or accelerations, over the greatest that are one: the inertia half a step before is

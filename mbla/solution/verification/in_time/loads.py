@@ -12,7 +12,7 @@ from mbla.arrays import BoolArray, FloatArray, IntArray, summed
 from mbla.model.model import LoadCase
 from mbla.model.motion.time_history import TimeHistory
 from mbla.model.ties.ties import OUTSIDE, Ties
-from mbla.solution.verification.time_bodies import MovedSolids, Solids
+from mbla.solution.verification.in_time.bodies import MovedSolids, Solids
 
 
 def dead_wrenches(moved: MovedSolids, case: LoadCase, history: TimeHistory) -> FloatArray:
