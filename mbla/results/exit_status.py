@@ -120,6 +120,7 @@ def compare_with_expected(case: CaseResult, expected: Expectation) -> list[str]:
         "reaction": answer_of(case, "reaction"),
         "least_load_factor": least_of(case),
         "period": case.solution.further.modes.period,
+        "period_after": case.solution.further.modes_after.period,
     }
     for key, value in found.items():
         wanted = getattr(expected, key)

@@ -21,7 +21,6 @@ from tests.decks.folder import PATHS, deck_of
 
 UNUSED: dict[str, str] = {
     "AnalysisSection": "gap max_iterations reductions residual search standing time_limit tolerance",
-    "Expectation": "residual",
     "Fill": "dilatancy",
     "ForceHistorySection": "at direction file on unit",
     "MeshItem": "weld",

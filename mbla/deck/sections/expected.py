@@ -41,6 +41,7 @@ class Expectation(Section):
         "of `stop` reached, at rest",
     )
     period: Number | None = Field(None, description="modes: the longest period, s")
+    period_after: Number | None = Field(None, description="modes and time_history: the longest period after it, s")
     status: Literal["solved", "approximate", "not_verified", "no_equilibrium", "unbounded"] | None = Field(
         None, description="status of the case"
     )
@@ -63,6 +64,7 @@ FIGURES = (
     "falls",
     "end",
     "period",
+    "period_after",
     "status",
 )
 
@@ -74,12 +76,13 @@ def expectation(item: Expectation) -> Iterator[Finding]:
         yield Finding("missing-key", f"needs at least one of {', '.join(FIGURES[:-1])} or {FIGURES[-1]}")
 
 
-OF_HISTORIES = ("peak", "peak_time", "residual", "falls", "end")
+OF_HISTORIES = ("peak", "peak_time", "residual", "falls", "end", "period_after")
+OF_MODES = ("period", "period_after")
 OF_LOAD_FACTORS = (
     *("load_factor", "associative_load_factor", "least_load_factor", "angle", "position"),
     *("reaction", "least", "greatest"),
 )
-"""figures of load cases with a time history, and of those that ask for a load factor or what it stands for"""
+"""figures of load cases with a time history, with modes, and with a load factor or what it stands for"""
 
 
 def expectations_of_kinds(deck: Any) -> Iterator[Finding]:
@@ -94,8 +97,8 @@ def expectations_of_kinds(deck: Any) -> Iterator[Finding]:
                 yield _applies_to(kind, name, key)
         for key in given(item, OF_HISTORIES) if case.time_history is None else ():
             yield _applies_to("time_history", name, key)
-        if item.period is not None and case.modes is None:
-            yield _applies_to("modes", name, "period")
+        for key in given(item, OF_MODES) if case.modes is None else ():
+            yield _applies_to("modes", name, key)
         for key in given(item, OF_LOAD_FACTORS) if given_in_time(case) else ():
             words = f"does not apply to a load case with {given_in_time(case)[0]}, which has no load factor"
             yield Finding("key-of-another-choice", words, "expected", name, key)
