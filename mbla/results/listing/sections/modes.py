@@ -16,6 +16,13 @@ AT_POINTS = (
 )
 """of modes beside a time history"""
 
+HOW_COMPARED = (
+    "Blocks are where it left them. A longer period says that joints have opened or stones have slid. Modes are "
+    "compared by their numbers: look at the masses, too."
+)
+AFTER_HEAD = ["mode", "before [s]", "after [s]", "change [%]", "mass x", "mass y", "mass z", "sum x", "sum y", "sum z"]
+"""of modes after a time history"""
+
 SMALL = 5e-5
 """share of mass that is nothing as it is written"""
 
@@ -59,25 +66,18 @@ def modes_blocks(assembly: Assembly, case: CaseResult) -> list[Block]:
     head = ["mode", "period [s]", "frequency [Hz]", "mass x", "mass y", "mass z", "sum x", "sum y", "sum z"]
     beside = [] if case.load_case.time_history is None else [Paragraph(AT_POINTS)]
     found = [Paragraph(says), *beside, *apart(table_of(head, rows, left=0, total=len(modes)))]
-    return [*found, *_after_blocks(assembly, case)]
+    return [*found, *_after_blocks(case)]
 
 
-def _after_blocks(assembly: Assembly, case: CaseResult) -> list[Block]:
+def _after_blocks(case: CaseResult) -> list[Block]:
     """A row for each mode after the time history, beside the one of the same number before it; nothing without any."""
     before, after = case.solution.further.modes, case.solution.further.modes_after
     if not len(after):
         return []
     known = "verified" if after.verified else "NOT verified"
-    says = (
-        f"After the time history: {counted(len(after), 'mode')} about the state it leaves, {known}. Blocks are where "
-    )
-    says += "it left them, and joints are as stiff as before where they still press. A period that is longer says that "
-    says += "joints have opened or stones have slid. Modes are compared by their numbers: look at the masses, too."
-    shown = range(min(max(len(before), len(after)), MOST_ROWS))
-    return [GAP, Paragraph(says), *apart(table_of(AFTER_HEAD, [_row(before, after, row) for row in shown], left=0))]
-
-
-AFTER_HEAD = ["mode", "before [s]", "after [s]", "change [%]", "mass x", "mass y", "mass z", "sum x", "sum y", "sum z"]
+    says = f"After the time history: {counted(len(after), 'mode')} about the state it leaves, {known}. {HOW_COMPARED}"
+    rows = [_row(before, after, row) for row in range(min(max(len(before), len(after)), MOST_ROWS))]
+    return [GAP, Paragraph(says), *apart(table_of(AFTER_HEAD, rows, left=0))]
 
 
 def _row(before: Modes, after: Modes, row: int) -> list[str]:
