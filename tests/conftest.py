@@ -19,6 +19,8 @@ from tests.browser import ARGUMENTS, CHROMIUM, PATIENCE
 settings.register_profile("untimed", deadline=None, suppress_health_check=[HealthCheck.too_slow])
 settings.load_profile("untimed")
 
+gc.disable()  # until all tests are collected, what grows is kept
+
 LONG_AS_A_WHOLE = "\npytestmark = pytest.mark.long\n"
 """a line of such a file"""
 
@@ -58,6 +60,7 @@ def pytest_collection_finish() -> None:
     """What all tests share is looked through for garbage no more: thousands of functions and their syntax trees."""
     gc.collect()
     gc.freeze()
+    gc.enable()
 
 
 @pytest.fixture(scope="session", autouse=True)

@@ -65,7 +65,7 @@ def test_names_and_titles_in_any_script_whatever_the_terminal_speaks(tmp_path: P
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs /dev/full")
 def test_standard_output_that_takes_nothing(deck: Path) -> None:
     main(["run", str(deck), "-q"])
-    for arguments in (["show", deck.with_suffix(".out") / "block.h5"], ["check", deck]):
+    for arguments in (("show", deck.with_suffix(".out") / "block.h5"), ("check", deck)):
         with Path("/dev/full").open("w") as full:
             done = mbla(*arguments, stdout=full)
         assert done.returncode == 6

@@ -28,8 +28,8 @@ from tests.properties.rewritten import copies_written_out, in_units, moved, shuf
 
 FEW = (0, 3, 10, 13, 23, 39, 46, 49)
 """one each of solved, without equilibrium, unbounded, convex, a dome on a tilting table, dilatancy and mortar"""
-SEEDS = (*FEW, *range(60, 110, 2))
-MORE = range(61, 110, 2)
+SEEDS = (*FEW, *range(60, 110, 4))
+MORE = [seed for seed in range(60, 110) if seed not in SEEDS]
 SAME = 3e-6
 """relative difference of load factors: the bounds of each may be 1e-6 apart, or a little more near an edge"""
 SHARP = 1e-7
@@ -163,8 +163,8 @@ def compare(first: Run, run: Run, name: str, same: float) -> None:
 @pytest.mark.parametrize(
     "seed",
     [
-        *(pytest.param(seed, marks=pytest.mark.long) for seed in INVARIANT[::2]),
-        *(pytest.param(seed, marks=pytest.mark.trust) for seed in INVARIANT[1::2]),
+        *(pytest.param(seed, marks=pytest.mark.long) for seed in INVARIANT[::4]),
+        *(pytest.param(seed, marks=pytest.mark.trust) for seed in INVARIANT if seed not in INVARIANT[::4]),
     ],
 )
 def test_other_words_have_the_same_answer(seed: int, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -201,10 +201,10 @@ SAID = {  # words of the verdict of what is no result, or not fully one
 }
 
 
-def run_of(name: str, folder: Path | None = None) -> Run:
+def run_of(name: str, folder: Path) -> Run:
     text, overrides = DECKS[name]
     cases = [each.removeprefix("case=") for each in overrides if each.startswith("case=")]
-    files = ["output.vtu=true", "output.frames=2"] if folder is not None else []
+    files = ["output.vtu=true", "output.frames=2"]
     others = [each for each in overrides if not each.startswith("case=")]
     return mbla.run(text, set=[*others, *files], cases=cases, output=folder)
 
@@ -214,10 +214,16 @@ def check_words(text: str) -> None:
     assert found is None, text[max(0, found.start() - 80) : found.end() + 40]
 
 
-@pytest.mark.parametrize("name", DECKS)
-def test_words_and_records(name: str) -> None:
+@pytest.fixture(scope="module", params=DECKS)
+def ran(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> tuple[str, Run, Path]:
+    """Name of a deck, its run, and the folder of its files."""
+    folder = tmp_path_factory.mktemp("odd") / "out"
+    return request.param, run_of(request.param, folder), folder
+
+
+def test_words_and_records(ran: tuple[str, Run, Path]) -> None:
     """Listing, summary, table of a notebook, JSON, tables, comparison with itself and verification."""
-    run = run_of(name)
+    _, run, _ = ran
     for text in (run.listing, run.summary, _table(run.records.model, run.cases)):
         check_words(text)
     record = json.loads(json_line(results_json(run.records)), parse_constant=lambda word: pytest.fail(word))
@@ -241,18 +247,17 @@ def test_words_and_records(name: str) -> None:
     check_words(comparison_text(compared, ("A.h5", "B.h5")))
 
 
-@pytest.mark.parametrize("name", DECKS)
-def test_files_pictures_and_report(name: str, tmp_path: Path) -> None:
+def test_files_pictures_and_report(ran: tuple[str, Run, Path], tmp_path: Path) -> None:
     """Every file is read by its readers; pictures of every kind are drawn, and the report has no bare ``nan``."""
     pyvista = pytest.importorskip("pyvista")
-    run_of(name, tmp_path / "out")
-    results = read_results_hdf5(tmp_path / "out" / "deck.h5")
-    again, apart = verify_file(tmp_path / "out" / "deck.h5")
+    name, _, folder = ran
+    results = read_results_hdf5(folder / "deck.h5")
+    again, apart = verify_file(folder / "deck.h5")
     assert not apart
     assert bool(again.unconfirmed) is (name == "not_all_cases")  # what the deck asks for and the file lacks
     assert again.exit_code == (4 if again.unconfirmed else results.exit_code)
     check_words("\n".join(verification_lines(again, apart)))
-    for path in (tmp_path / "out").glob("*.vtu"):
+    for path in folder.glob("*.vtu"):
         assert len(meshio.read(path).points) == pyvista.read(path).n_points
     options = PictureOptions(kinds=KINDS, size=(600, 400))
     assert all(path.stat().st_size > 0 for path in plot_results(results, tmp_path / "pictures", "odd", options))
@@ -261,4 +266,4 @@ def test_files_pictures_and_report(name: str, tmp_path: Path) -> None:
     assert not remarks
     hidden = re.compile(r'<style.*?</style>|<svg.*?</svg>|<pre.*?</pre>|"data:[^"]*"', re.DOTALL)
     check_words(re.sub(r"<[^>]*>", " ", hidden.sub(" ", page)).replace("None: nothing", "").replace("None.", ""))
-    check_words(re.sub(r'<[^>]*>|"data:[^"]*"', " ", mbla.read_results(tmp_path / "out" / "deck.h5")._repr_html_()))
+    check_words(re.sub(r'<[^>]*>|"data:[^"]*"', " ", mbla.read_results(folder / "deck.h5")._repr_html_()))

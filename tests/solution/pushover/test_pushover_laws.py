@@ -61,8 +61,12 @@ def pushed_case(text: str, *overrides: str) -> CaseResult:
 SPREADING = (DECKS / "tutorials" / "arch_that_spreads.yaml").read_text(encoding="utf-8")
 
 
-@pytest.mark.every(25)
-@pytest.mark.parametrize("seed", range(50))
+def length_of(seed: int) -> tuple[pytest.MarkDecorator, ...]:
+    """Two seeds are short, ten of all kinds long, the others full checks."""
+    return () if seed % 25 == 0 else (pytest.mark.long if seed % 5 == 1 else pytest.mark.trust,)
+
+
+@pytest.mark.parametrize("seed", [pytest.param(seed, marks=length_of(seed)) for seed in range(50)])
 def test_live_work_is_friction_and_what_the_dead_load_gained(seed: int) -> None:
     """On random structures; what is missing is the work of gaps that close, of first order in the step."""
     case = pushed_case(random_deck(seed))
