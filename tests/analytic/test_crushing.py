@@ -158,6 +158,7 @@ WAYS = {
 }
 
 
+@pytest.mark.every(2)
 @pytest.mark.parametrize("way", WAYS)
 def test_no_way_of_solving_changes_how_a_joint_crushes(way: str) -> None:
     force = factor_of(PIER, "parameters.e1=0.3", "parameters.e2=0.2", *WAYS[way])

@@ -41,7 +41,7 @@ def assert_same(one: Mechanics | None, other: Mechanics | None) -> None:
 @pytest.fixture(scope="module", params=[(WALL, BY_PATH), (TOWER, BY_PATH), (WALL, ASSOCIATIVE)])
 def alone_and_with_all(request: pytest.FixtureRequest) -> tuple[CaseResult, CaseResult]:
     text, rule = request.param
-    size = ("parameters.n=3",) if text is WALL else ()
+    size = ("parameters.n=2",) if text is WALL else ()
     without = WITHOUT if rule == BY_PATH else ("analysis.standing=false",)
     further = EVERYTHING if rule == BY_PATH else (*EVERYTHING, "analysis.standing=true")
     return case_of(text, rule, *size, *without)[1], case_of(text, rule, *size, *further)[1]

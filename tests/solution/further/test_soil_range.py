@@ -21,7 +21,12 @@ from tests.line import BLOCK
 from tests.results.changed_files import with_case, written
 
 DECK = Path(__file__).parents[3] / "decks" / "tutorials" / "arch_in_soil.yaml"
-RANGE = ("analysis.soil_range=true", "fill.soil.friction_angle=20", "fill.soil.wall.friction_angle=12")
+RANGE = (
+    "analysis.soil_range=true",
+    "fill.soil.cells.size=0.8",
+    "fill.soil.friction_angle=20",
+    "fill.soil.wall.friction_angle=12",
+)
 
 
 @pytest.fixture(scope="module")

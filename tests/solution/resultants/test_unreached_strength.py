@@ -40,7 +40,7 @@ analysis: {flow_rule: associative}
 """  # noqa: E501
 
 
-@pytest.mark.parametrize("strength", ["1.e+11", "1.e+12", "1.e+15", "1.e+40"])
+@pytest.mark.parametrize("strength", ["1.e+11", "1.e+40"])
 def test_a_strength_that_cannot_matter(strength: str) -> None:
     """It slides at the friction coefficient, which is proved whatever the strength is."""
     _, case = case_of(WALL.format(strength=strength))
