@@ -186,8 +186,6 @@ load_cases: {pull: {live: [{force: [0, 0, -1000], on: hanging, at: [0.5, 0.5, 0]
 }
 
 
-pytestmark = pytest.mark.long
-
 NO_WORD = re.compile(r"(?<!\w)(nan|NaN|None|-?inf|Infinity)(?!\w)")
 """what Python writes where there is nothing to write"""
 SAID = {  # words of the verdict of what is no result, or not fully one
@@ -209,6 +207,10 @@ def run_of(name: str, folder: Path) -> Run:
     return mbla.run(text, set=[*others, *files], cases=cases, output=folder)
 
 
+EVERY = 3
+"""of the decks whose pictures are all drawn, which takes seconds, one of so many is a long test"""
+
+
 def check_words(text: str) -> None:
     found = NO_WORD.search(text)
     assert found is None, text[max(0, found.start() - 80) : found.end() + 40]
@@ -221,6 +223,7 @@ def ran(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory
     return request.param, run_of(request.param, folder), folder
 
 
+@pytest.mark.long
 def test_words_and_records(ran: tuple[str, Run, Path]) -> None:
     """Listing, summary, table of a notebook, JSON, tables, comparison with itself and verification."""
     _, run, _ = ran
@@ -247,6 +250,11 @@ def test_words_and_records(ran: tuple[str, Run, Path]) -> None:
     check_words(comparison_text(compared, ("A.h5", "B.h5")))
 
 
+@pytest.mark.parametrize(
+    "ran",
+    [pytest.param(name, marks=pytest.mark.trust if i % EVERY else pytest.mark.long) for i, name in enumerate(DECKS)],
+    indirect=True,
+)
 def test_files_pictures_and_report(ran: tuple[str, Run, Path], tmp_path: Path) -> None:
     """Every file is read by its readers; pictures of every kind are drawn, and the report has no bare ``nan``."""
     pyvista = pytest.importorskip("pyvista")

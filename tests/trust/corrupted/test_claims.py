@@ -53,7 +53,7 @@ def small(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Results]:
     return sound_files(tmp_path_factory.mktemp("sound"), SMALL)
 
 
-@pytest.mark.every(4)
+@pytest.mark.every(6)
 @pytest.mark.parametrize("kind", FORGERIES)
 def test_a_forged_file_is_not_agreed_with(kind: str, small: dict[str, Results], tmp_path: Path) -> None:
     """Of the first deck in which there is something to forge in that way."""
