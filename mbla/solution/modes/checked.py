@@ -15,6 +15,10 @@ SOFT = 1e-3
 """Sag over the mean size of blocks from which joints are told to be soft."""
 
 
+ROUNDING = 1e-9
+"""Share of an area that is none."""
+
+
 def checked_modes_of(assembly: Assembly, load_case: LoadCase, count: int) -> tuple[Modes, tuple[Message, ...]]:
     """So many modes, verified, and remarks on them; or none, and a remark that says why."""
     there = StructureAt.as_built(assembly, load_case)
@@ -46,6 +50,11 @@ def modes_remarks(model: Model, load_case: LoadCase, modes: Modes) -> tuple[Mess
         words += "the size of blocks: weight that turns with the structure is left out, and takes about "
         words += f"{100.0 * share:.2g} % of its stiffness, so that periods are too short"
         remarks.append(Message("modes-soft", words))
+    if parts := int(((modes.pressed > 0.0) & (modes.pressed < 1.0 - ROUNDING)).sum()):
+        joints = "1 joint presses" if parts == 1 else f"{parts} joints press"
+        words = f"{joints} on a part of their area at rest, for what they carry lies outside of their kern: that part, "
+        words += "and periods with it, hang on where contact points lie"
+        remarks.append(Message("modes-in-part", words))
     if loose := int(modes.loose.sum()):
         which = "1 block that joints do not hold has" if loose == 1 else f"{loose} blocks that joints do not hold have"
         remarks.append(Message("modes-loose-blocks", f"{which} motions without stiffness, which are no modes"))

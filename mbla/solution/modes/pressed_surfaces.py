@@ -1,16 +1,15 @@
 """Where interfaces press at rest, and the moments of these surfaces.
 
-An interface that presses at all its corners counts as a whole. Of another one counts the part in which the two bodies
-close, or are no further apart than its tensile strength allows: bodies are rigid, so that the opening is linear, and
-the edge of that part is a straight line. Where a motion has opened a joint, corners that carry it overlap by less than
-an edge does that carries the same. So two bodies, turned against each other as they are there, are brought together
-until the surface presses as much as its points do::
+Forces at contact points say what an interface carries, and where: its surface presses as a whole where that is within
+its kern, or nowhere pulls more than the tensile strength; else in the part that carries the same without tension
+(:mod:`mbla.solution.modes.carrying_part`). So periods of what stands on the edge of its joints are as long as those of
+its surfaces, not of points at its corners.
+
+Where some of its points are open and what it carries is next to an edge, it presses where the two bodies close. Where a
+motion has opened it they are turned against each other as they are there, and brought together until the surface
+presses as much as its points do::
 
     ∫ k_N (h + s)₊ dA = Σ N,    h = f_t/k_N − opening
-
-Moments of polygons are exact::
-
-    A, S = ∫ y dA, I = ∫ y yᵀ dA,    y = (y_1, y_2) along the tangents from the centroid of the interface
 
 Of an interface with holes the contact points that press count, each with its share of the area.
 """
@@ -23,15 +22,17 @@ import numpy as np
 
 from mbla.arrays import FloatArray, IntArray, starts, summed
 from mbla.contacts.contacts import Contacts
-from mbla.model.solids.ragged import next_item, row_sums
+from mbla.solution.modes.carrying_part import carrying_part
+from mbla.solution.modes.polygons import clipped, lifted, moments_of, powers
 from mbla.solution.modes.rest import Rest
 
 TOUCHES = 1e-6
 """Force of a contact point over the load of the lighter of its bodies from which it presses: the step at rest leaves
 1e-7 of it without balance."""
 
-MOST, SHARP = 60, 1e-14
-"""Steps of Newton's method, and the last of them over the greatest difference of heights."""
+NARROW, EDGE = 1e-3, 0.05
+"""Distance of a force from the edge of a surface, over the root of its area, from which its part follows from the
+force: where all points press, else where some are open."""
 
 WHOLE = 1e-6
 """Difference of the area inside an outline from that of its interface, relative, from which it has holes."""
@@ -60,27 +61,59 @@ def pressed_surfaces(rest: Rest, relative: FloatArray) -> PressedSurfaces:
     contacts = rest.bodies.contacts
     n = contacts.n_surfaces
     owner = contacts.interface_of_point[: contacts.point_start[n]]
-    local = local_points(contacts)
+    local, tension = local_points(contacts), strengths(rest)[:n]
     opening = _opening(rest, relative, owner, local)
     above = _above(rest, owner, opening)
     holds = above > TOUCHES * _lighter(rest)[owner]
     share = np.bincount(owner, holds, n) / np.maximum(np.diff(contacts.point_start[: n + 1]), 1)
     outlines, of_outlines, start = _outlines(contacts, local, opening)
-    hollow = np.abs(moments_of(outlines, start)[:, 0] - contacts.areas[:n]) > WHOLE * contacts.areas[:n]
-    found = np.where((share == 1.0)[:, None], moments_of(outlines, start), 0.0)
+    moments = moments_of(outlines, start)
+    hollow = np.abs(moments[:, 0] - contacts.areas[:n]) > WHOLE * contacts.areas[:n]
+    turned = rest.turned & (share < 1.0)
+    force, arms = _resultants(
+        contacts, owner, local, np.maximum(above, 0.0) - tension[owner] * contacts.point_areas[: len(owner)]
+    )
+    least = np.minimum.reduceat(_uncracked(outlines, start, moments, force, arms), start[:-1])
+    whole = (share > 0.0) & ~turned & (least >= -tension)
+    found = np.where(whole[:, None], moments, 0.0)
     stiffness = rest.stiffness[:n, 0]
     volumes = np.bincount(owner, np.maximum(above, 0.0), n) / stiffness
-    tension = strengths(rest)[:n]
-    for row in np.flatnonzero((share > 0.0) & (share < 1.0) & ~hollow).tolist():
+    for row in np.flatnonzero((share > 0.0) & ~whole & ~hollow).tolist():
         own = slice(int(start[row]), int(start[row + 1]))
-        heights = tension[row] / stiffness[row] - of_outlines[own]
-        part = clipped(outlines[own], lifted(outlines[own], heights, volumes[row]) if rest.turned[row] else heights)
-        if len(part):
+        outline, heights = outlines[own], tension[row] / stiffness[row] - of_outlines[own]
+        edge, part = (NARROW if share[row] == 1.0 else EDGE), None
+        if force[row] > 0.0 and not turned[row]:
+            part = carrying_part(outline, arms[row], edge)
+        if part is None and share[row] < 1.0:
+            part = clipped(outline, lifted(outline, heights, volumes[row]) if turned[row] else heights)
+        if part is not None and len(part):
             found[row] = moments_of(part, np.array([0, len(part)]))[0]
     areas = np.where(holds, contacts.point_areas[: len(owner)], 0.0)
-    by_points = summed(owner, areas[:, None] * _powers(local), n)
+    by_points = summed(owner, areas[:, None] * powers(local), n)
     found[hollow] = by_points[hollow]
     return PressedSurfaces(found[:, 0], found[:, 1:3], found[:, 3:])
+
+
+def _resultants(
+    contacts: Contacts, owner: IntArray, local: FloatArray, forces: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """Normal force of each surface, (n,), and its eccentricity, (n, 2) m; nan of those without a force."""
+    total = np.bincount(owner, forces, contacts.n_surfaces)
+    firsts = np.column_stack([np.bincount(owner, forces * each, contacts.n_surfaces) for each in local.T])
+    return total, firsts / np.where(total > 0.0, total, np.nan)[:, None]
+
+
+def _uncracked(
+    outlines: FloatArray, start: IntArray, moments: FloatArray, force: FloatArray, arms: FloatArray
+) -> FloatArray:
+    """Stress of surfaces that press as a whole, at the corners of their outlines, (n_corners,); −inf of no force."""
+    area, s1, s2, i11, i12, i22 = moments.T
+    matrices = np.array([[area, s1, s2], [s1, i11, i12], [s2, i12, i22]]).transpose(2, 0, 1)
+    right = np.column_stack([np.ones(len(force)), np.nan_to_num(arms)])
+    planes = np.linalg.solve(matrices, right[:, :, None])[:, :, 0] * force[:, None]
+    planes[~(force > 0.0)] = -np.inf, 0.0, 0.0
+    of_corner = planes[np.repeat(np.arange(len(force)), np.diff(start))]
+    return np.asarray(of_corner[:, 0] + (of_corner[:, 1:] * outlines).sum(axis=1))
 
 
 def strengths(rest: Rest) -> FloatArray:
@@ -95,36 +128,6 @@ def local_points(contacts: Contacts) -> FloatArray:
     n = int(contacts.point_start[contacts.n_surfaces])
     arms = contacts.points[:n] - contacts.centroids[contacts.interface_of_point[:n]]
     return np.asarray(np.einsum("ntx,nx->nt", contacts.frames[:n, 1:], arms))
-
-
-def clipped(polygon: FloatArray, heights: FloatArray) -> FloatArray:
-    """The part of a polygon (k, 2) where a linear function with these values at its corners, (k,), is positive."""
-    corners = []
-    for here, there, low, high in zip(polygon, np.roll(polygon, -1, 0), heights, np.roll(heights, -1), strict=True):
-        if low > 0.0:
-            corners.append(here)
-        if (low > 0.0) != (high > 0.0):
-            corners.append(here + low / (low - high) * (there - here))
-    return np.array(corners).reshape(-1, 2)
-
-
-def lifted(polygon: FloatArray, heights: FloatArray, volume: float) -> FloatArray:
-    """Values at the corners of a polygon, (k,), of a linear function and a constant, the positive part a volume.
-
-    Newton's method for ∫ (h + s)₊ dA, which grows with s ever faster: from above it comes down to the root.
-    """
-    plane, *_ = np.linalg.lstsq(np.column_stack([np.ones(len(polygon)), polygon]), heights, rcond=None)
-    shift = 0.0
-    for _ in range(MOST):
-        part = clipped(polygon, heights + shift)
-        area, *firsts = moments_of(part, np.array([0, len(part)]))[0, :3] if len(part) else np.zeros(3)
-        if not area > 0.0:
-            break
-        by = (volume - float(plane @ [area, *firsts])) / area - shift
-        shift += by
-        if abs(by) <= SHARP * float(np.ptp(heights)):
-            break
-    return np.asarray(heights + shift)
 
 
 def _opening(rest: Rest, relative: FloatArray, owner: IntArray, local: FloatArray) -> FloatArray:
@@ -156,18 +159,3 @@ def _outlines(contacts: Contacts, local: FloatArray, opening: FloatArray) -> tup
     inside = np.arange(len(local)) - contacts.point_start[contacts.interface_of_point[: len(local)]]
     outer = inside < contacts.outline[contacts.interface_of_point[: len(local)]]
     return local[outer], opening[outer], starts(contacts.outline[:n].astype(np.int64))
-
-
-def _powers(points: FloatArray) -> FloatArray:
-    """1, y_1, y_2, y_1², y_1 y_2, y_2² of points, (n, 6)."""
-    one, two = points.T
-    return np.column_stack([np.ones(len(points)), one, two, one * one, one * two, two * two])
-
-
-def moments_of(corners: FloatArray, start: IntArray) -> FloatArray:
-    """A, S_1, S_2, I_11, I_12, I_22 of polygons, (n, 6): ∫ f dA over the triangles from the origin to each edge."""
-    here, there = corners, corners[next_item(start)]
-    twice = here[:, 0] * there[:, 1] - there[:, 0] * here[:, 1]
-    middle = _powers(here) + _powers(there) + _powers(here + there)
-    middle[:, 0], middle[:, 1:3] = 12.0, 2.0 * middle[:, 1:3]
-    return row_sums(twice[:, None] / 24.0 * middle, start)

@@ -21,7 +21,7 @@ from mbla.model.solids.blocks import Blocks
 from mbla.solution.linear_algebra.superlu import negative_pivots
 from mbla.solution.modes.modes import Modes
 from mbla.solution.verification.leaning import left_out_share
-from mbla.solution.verification.pressed_parts import quadrature, same_share
+from mbla.solution.verification.pressed_parts import quadrature, same_share, within_kern
 from mbla.solution.verification.rest import UNBALANCED, AtRest, same, stiffness_of_deck
 from mbla.solution.verification.statics import contact_resultants, left_to_balance, lever_arms
 
@@ -95,7 +95,8 @@ def _wrong_at_rest(there: StructureAt, rest: AtRest, modes: Modes) -> Iterator[s
     np.maximum.at(most, owner, force)
     n = contacts.n_surfaces
     whole, none = same_share(modes.pressed, 1.0), modes.pressed == 0.0
-    if np.any(whole & (least[:n] < -OPEN)) or np.any(none & (most[:n] > OPEN)):
+    wrong = np.any(whole & (least[:n] < -OPEN)) or np.any(none & (most[:n] > OPEN))
+    if wrong or not all(within_kern(rest, row) for row in np.flatnonzero(whole & ~rest.turned).tolist()):
         yield "interfaces are said to press that are open, or to be open where they press"
 
 

@@ -12,6 +12,19 @@ from mbla.solution.verification.rest import AtRest
 FAR = 1e3
 """Size of a half plane over that of what it cuts."""
 
+PRESSES = 1e-6
+"""Force of a contact point over the load of the lighter of two bodies from which it is closed."""
+
+NARROW, EDGE = 1e-3, 0.05
+"""Distance of a force from the edge of a surface from which its springs carry the force, over the root of its area: of
+one whose points are all closed, and of another."""
+
+MOST, SHORT, SINGULAR = 60, 1e-6, 1e15
+"""Planes at most until one carries a force, least share of the way to the next, condition of what presses nowhere."""
+
+EXACT, CARRIED, ROUNDING = 1e-12, 1e-7, 1e-6
+"""What springs leave of a force and its moments, what they may, and stress at a corner that is none, relative."""
+
 
 def same_share(shares: FloatArray, share: float) -> np.ndarray:
     """Which shares are one but for rounding."""
@@ -26,10 +39,8 @@ def quadrature(rest: AtRest, pressed: FloatArray) -> tuple[IntArray, FloatArray,
     contacts = rest.contacts
     interface, places, weights = [np.zeros(0, dtype=np.int64)], [np.zeros((0, 3))], [np.zeros(0)]
     for row in np.flatnonzero(pressed > 0.0).tolist():
-        own = slice(int(contacts.point_start[row]), int(contacts.point_start[row + 1]))
-        corners = contacts.points[own][: contacts.outline[row]]
+        outline, own = _outline(rest, row)
         frame, centre = contacts.frames[own.start], contacts.centroids[row]
-        outline = (corners - centre) @ frame[1:].T
         hollow = abs(shapely.Polygon(outline).area - contacts.areas[row]) > 1e-6 * contacts.areas[row]
         if hollow:
             holds = rest.pressed[own] > 0.0
@@ -47,10 +58,22 @@ def quadrature(rest: AtRest, pressed: FloatArray) -> tuple[IntArray, FloatArray,
     return np.concatenate(interface), np.concatenate(places), np.concatenate(weights)
 
 
-def _cut(rest: AtRest, row: int, outline: FloatArray) -> list[FloatArray]:
-    """The parts of an outline that press: where the plane through the forces of its corners lies above nothing.
+def within_kern(rest: AtRest, row: int) -> bool:
+    """Whether an outline presses as a whole under what its points carry, but for rounding: no corner pulls too much."""
+    outline, points = _outline(rest, row)
+    force, arm = _resultant(rest, row, points)
+    if not force > 0.0:
+        return bool(rest.pressed[points].min() >= 0.0)
+    law = rest.model.joints[rest.contacts.joint_names[rest.contacts.joints[row]]]
+    stress = np.column_stack([outline, np.ones(len(outline))]) @ _plane(_products([outline]), arm) * force
+    return bool(stress.min() >= -law.tensile_strength - ROUNDING * float(np.abs(stress).max()))
 
-    Where a motion has opened the joint it is lifted until it holds what the points carry.
+
+def _cut(rest: AtRest, row: int, outline: FloatArray) -> list[FloatArray]:
+    """The parts of an outline that press: those of springs without tension that carry what its points do.
+
+    Where they carry next to an edge, it is the part that closes, by the plane through the openings of the corners;
+    where a motion has opened the joint that plane is lifted until it holds what they carry.
     """
     contacts = rest.contacts
     points = slice(int(contacts.point_start[row]), int(contacts.point_start[row + 1]))
@@ -59,7 +82,14 @@ def _cut(rest: AtRest, row: int, outline: FloatArray) -> list[FloatArray]:
     height = (law.tensile_strength / stiffness - rest.moved[points, 0])[: len(outline)]
     found, *_ = np.linalg.lstsq(np.column_stack([outline, np.ones(len(outline))]), height, rcond=None)
     plane = np.asarray(found, dtype=np.float64)
-    if not rest.turned[row] or not np.ptp(height) > 0.0:
+    if not rest.turned[row]:
+        force, arm = _resultant(rest, row, points)
+        closed = bool((rest.pressed[points] > PRESSES * rest.lighter[points]).all())
+        parts = _carrying(outline, arm, NARROW if closed else EDGE) if force > 0.0 else None
+        if parts is not None or closed:
+            return parts or []
+        return _above(outline, plane)
+    if not np.ptp(height) > 0.0:
         return _above(outline, plane)
     volume = float(np.maximum(rest.pressed[points], 0.0).sum()) / stiffness
 
@@ -74,8 +104,70 @@ def _cut(rest: AtRest, row: int, outline: FloatArray) -> list[FloatArray]:
     return _above(outline, plane + np.array([0.0, 0.0, lift]))
 
 
+def _outline(rest: AtRest, row: int) -> tuple[FloatArray, slice]:
+    """Corners of an interface along its tangents, from its centroid, and the rows of its points."""
+    contacts = rest.contacts
+    own = slice(int(contacts.point_start[row]), int(contacts.point_start[row + 1]))
+    corners = contacts.points[own][: contacts.outline[row]]
+    return (corners - contacts.centroids[row]) @ contacts.frames[own.start][1:].T, own
+
+
+def _resultant(rest: AtRest, row: int, points: slice) -> tuple[float, FloatArray]:
+    """Normal force of an interface, and where it acts from the centroid."""
+    contacts, normal = rest.contacts, rest.forces[points, 0]
+    places = (contacts.points[points] - contacts.centroids[row]) @ contacts.frames[points.start][1:].T
+    force = float(normal.sum())
+    return force, places.T @ normal / force if force > 0.0 else np.full(2, np.nan)
+
+
+def _products(parts: list[FloatArray]) -> FloatArray:
+    """∫ (y_1, y_2, 1)ᵀ(y_1, y_2, 1) dA over polygons, (3, 3): middles of the sides of triangles are exact."""
+    found = np.zeros((3, 3))
+    for part in parts:
+        here, there = part, np.roll(part, -1, axis=0)
+        area = (here[:, 0] * there[:, 1] - there[:, 0] * here[:, 1]) / 2.0
+        for middle in (here / 2.0, (here + there) / 2.0, there / 2.0):
+            whole = np.column_stack([middle, np.ones(len(middle))])
+            found += np.einsum("n,ni,nj->ij", area / 3.0, whole, whole)
+    return found
+
+
+def _plane(products: FloatArray, arm: FloatArray) -> FloatArray:
+    """Heights a y_1 + b y_2 + c that carry a force of one at a place."""
+    return np.asarray(np.linalg.solve(products, np.append(arm, 1.0)))
+
+
+def _carrying(outline: FloatArray, arm: FloatArray, edge: float) -> list[FloatArray] | None:
+    """Parts of an outline whose springs carry a force there without tension; None where none do."""
+    size, hull = float(np.sqrt(shapely.Polygon(outline).area)), shapely.Polygon(outline).convex_hull
+    force = shapely.Point(arm)
+    if not (hull.contains(force) and hull.exterior.distance(force) > edge * size):
+        return None
+    own, wanted = outline / size, np.append(arm / size, 1.0)
+
+    def energy(plane: FloatArray, products: FloatArray) -> float:
+        return float(0.5 * plane @ products @ plane - wanted @ plane)
+
+    plane, products = _plane(_products([own]), arm / size), _products([own])
+    for _ in range(MOST):
+        products = _products(_above(own, plane))
+        left, here = float(np.abs(products @ plane - wanted).max()), energy(plane, products)
+        if left <= EXACT or not np.linalg.cond(products) < SINGULAR:
+            break
+        towards, share = np.linalg.solve(products, wanted), 1.0
+        while share > SHORT:  # the least of a convex function
+            there = plane + share * (towards - plane)
+            if energy(there, _products(_above(own, there))) < here + EXACT * abs(here):
+                break
+            share /= 2.0
+        plane = plane + share * (towards - plane)
+    return [part * size for part in _above(own, plane)] if left <= CARRIED else None
+
+
 def _above(outline: FloatArray, plane: FloatArray) -> list[FloatArray]:
     """The parts of an outline where a plane a y_1 + b y_2 + c lies above nothing."""
+    if not np.hypot(*plane[:2]) > 0.0:
+        return [outline] if plane[2] > 0.0 else []
     normal = plane[:2] / np.hypot(*plane[:2])
     foot = -plane[2] / np.hypot(*plane[:2]) * normal
     size = float(np.linalg.norm(foot)) + FAR * float(np.abs(outline).max())

@@ -100,11 +100,14 @@ def test_what_has_not_moved_has_the_same_modes(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("slip", [0.2, -0.4])
 def test_a_stone_that_has_slid_vibrates_on_what_is_left_of_its_joint(tmp_path: Path, slip: float) -> None:
+    """A stone out of its kern presses on three times the distance of its middle from the edge."""
     modes, remarks = found(tmp_path, left(np.array([slip, 0.0, -SAG])))
-    assert remarks == []
+    assert [each.split(":")[0] for each in remarks] == ["modes-in-part"] * (abs(slip) > 0.25)
     assert modes.verified
     mine = modes.periods[modes.masses[:, 1] < 1e-9]
-    assert mine == pytest.approx(periods_in_plane(1.0 - abs(slip), -slip / 2.0), rel=1e-4)
+    away = 0.5 - abs(slip)
+    strip = min(1.0 - abs(slip), 3.0 * away)
+    assert mine == pytest.approx(periods_in_plane(strip, -np.sign(slip) * (strip / 2.0 - away)), rel=1e-4)
 
 
 def test_a_stone_that_has_turned_about_the_vertical_vibrates_on_the_octagon_they_share(tmp_path: Path) -> None:
@@ -147,7 +150,7 @@ def test_stones_that_lean_on_each_other_stand_on_strips_of_their_feet(tmp_path: 
     assert history.peaks is not None
     history = replace(history, peaks=replace(history.peaks, ends=ends))
     modes, remarks = checked_modes_after(build_assembly(deck, model), deck.contacts, model.load_cases[0], history)
-    assert remarks == ()
+    assert [each.identifier for each in remarks] == ["modes-in-part"]
     assert modes.verified
     strip = np.sqrt(2.0 * DENSITY * 0.2 * 9.81 / (stiffness * np.tan(turn)))
     assert modes.pressed[1:] == pytest.approx(np.full(2, strip / (0.2 * np.cos(turn))), rel=1e-4)
