@@ -138,3 +138,36 @@ def test_soil_of_cells_pushes_a_wall(tmp_path: Path) -> None:
     rate = np.maximum(np.cumsum(np.where(t < t[np.argmax(base > 0.4)], 0.0, base - 0.4)) * 9.81 * 1e-4, 0.0)
     alone = float(rate.sum()) * 1e-4
     assert 1.1 * alone < pushed < 3.0 * alone
+
+
+SLOPE = """\
+mbla: 1
+title: Soil that holds together slides down a slope of 30 degrees
+materials: {clay: {density: 1800}}
+joints: {dry: {friction: 0.6, stiffness: {normal: 1.e9}}}
+contacts: {joint: dry, overrides: [{between: [clay, ground], joint: dry}]}
+blocks:
+  - soil:
+      {group: clay, material: clay, width: 1, outline: [[0, 0], [0.520, -0.3], [0.720, 0.0464], [0.2, 0.3464]],
+       cells: {size: 0.3}, friction_angle: 33, cohesion: 50000, tensile_strength: 50000}
+supports: [{ground: {point: [0, 0, 0], normal: [0.5, 0, 0.8660254]}, joint: dry}]
+load_cases:
+  quake:
+    time_history:
+      {motion: {pulse: half_sine, amplitude: 1.5 g, duration: 0.3, direction: [-1, 0, 0]}, step: 0.005, duration: 0.9}
+output: {vtu: false}
+"""
+
+
+def test_soil_falls_as_a_whole(tmp_path: Path) -> None:
+    """By half of its height, not of a cell's: these are lower than it by far."""
+    results, folder = run_of(tmp_path, SLOPE)
+    found, blocks = results.cases[0].solution.further.time_history, results.model.blocks
+    assert found.peaks is not None
+    assert found.frames is not None
+    extents = [np.ptp(blocks.vertices[blocks.block_of_vertex == cell, 2]) for cell in range(len(blocks))]
+    assert (found.end, len(extents)) == (HistoryEnd.COLLAPSE, len(results.model.soils[0].blocks))
+    lower = found.peaks.ends[:, 2] - found.frames.shifts[0, :, 2]
+    assert -lower.min() == pytest.approx(0.5 * np.ptp(blocks.vertices[:, 2]), rel=0.05)
+    assert max(extents) < 0.9 * np.ptp(blocks.vertices[:, 2])
+    assert verify_file(folder / "block.h5")[1] == ()

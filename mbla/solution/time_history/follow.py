@@ -117,7 +117,6 @@ class TimeWay:
         state = TimeState.at_rest(place, dashpots_of(bodies, joints, at, of_all))
         rest = bodies.structure.blocks_at(place.pose)
         window = round(WINDOW * history.duration / history.step)
-        blocks = bodies.structure.model.blocks
         sag = float(np.linalg.norm(rest.shift, axis=1).max(initial=0.0))
         return TimeWay(
             March(bodies, of_all),
@@ -127,7 +126,7 @@ class TimeWay:
             RowKeeper.of(state),
             FrameKeeper(bodies),
             Instants.of(bodies, contacts, rest),
-            Greatest.of(blocks, contacts, rest, bodies.down, window),
+            Greatest.of(bodies.structure.model, contacts, rest, bodies.down, window),
             deadline,
             watch,
         )

@@ -8,16 +8,17 @@ from functools import cached_property
 
 import numpy as np
 
-from mbla.arrays import FloatArray
+from mbla.arrays import BoolArray, FloatArray
 from mbla.contacts.contacts import Contacts
+from mbla.model.model import Model
 from mbla.model.pose import Pose
-from mbla.model.solids.blocks import Blocks
 from mbla.solution.time_history.as_built import CornersAsBuilt
 from mbla.solution.time_history.history import Peaks
 
 FALLEN, TILTED = 0.5, float(np.cos(np.radians(60.0)))
 """Of the height of a block, by which it is lower when it has fallen; cosine of the tilt from which it has, too: a block
-that turns over on the ground is lower by less."""
+that turns over on the ground is lower by less. A cell of soil is no block: of it the height is that of its soil as a
+whole, and its tilt does not count."""
 
 
 @dataclass
@@ -30,7 +31,7 @@ class Greatest:
     last    : shifts of the last poses, by which the residual displacement still varies
     """
 
-    blocks: Blocks
+    model: Model
     rest: Pose
     down: FloatArray
     corners: CornersAsBuilt
@@ -43,13 +44,13 @@ class Greatest:
     falling: FloatArray
 
     @staticmethod
-    def of(blocks: Blocks, contacts: Contacts, rest: Pose, down: FloatArray, window: int) -> Greatest:
+    def of(model: Model, contacts: Contacts, rest: Pose, down: FloatArray, window: int) -> Greatest:
         """Before the first step; how much the residual displacement varies is taken of as many poses as ``window``."""
-        n, corners = len(blocks), CornersAsBuilt.of(blocks, contacts)
+        n, corners = len(model.blocks), CornersAsBuilt.of(model.blocks, contacts)
         opening, slip = (np.maximum(each, 0.0) for each in corners.apart(rest))
         last: deque[FloatArray] = deque([rest.shift], maxlen=max(window, 1))
         moved, times, turned = np.zeros((3, n))
-        return Greatest(blocks, rest, down, corners, last, moved, times, turned, opening, slip, np.full(n, np.nan))
+        return Greatest(model, rest, down, corners, last, moved, times, turned, opening, slip, np.full(n, np.nan))
 
     def after(self, found: Peaks, last: FloatArray) -> Greatest:
         """The same after values that are on record, and the last poses, (m, n_blocks, 3)."""
@@ -75,15 +76,24 @@ class Greatest:
         opening, slip = self.corners.apart(there)
         self.openings, self.slips = np.maximum(self.openings, opening), np.maximum(self.slips, slip)
         upright = ((self.down @ there.rotation) * (self.down @ self.rest.rotation)).sum(axis=1)
-        fallen = (moved @ self.down > FALLEN * self.heights) | (upright < TILTED)
+        fallen = (moved @ self.down > FALLEN * self.heights) | self._of_its_own & (upright < TILTED)
         self.falling[fallen & np.isnan(self.falling)] = time
         self.last.append(there.shift)
 
     @cached_property
     def heights(self) -> FloatArray:
-        """Of the blocks along the dead load, (n_blocks,)."""
-        along, first = self.blocks.vertices @ self.down, self.blocks.vertex_start[:-1]
-        return np.asarray(np.maximum.reduceat(along, first) - np.minimum.reduceat(along, first))
+        """Of the blocks along the dead load, (n_blocks,); of a cell that of its soil."""
+        blocks = self.model.blocks
+        along, first = blocks.vertices @ self.down, blocks.vertex_start[:-1]
+        low, high = np.maximum.reduceat(along, first), np.minimum.reduceat(along, first)
+        for soil in self.model.soils:
+            low[soil.blocks], high[soil.blocks] = low[soil.blocks].max(), high[soil.blocks].min()
+        return np.asarray(low - high)
+
+    @cached_property
+    def _of_its_own(self) -> BoolArray:
+        """Blocks that are no cells of soil, (n_blocks,)."""
+        return np.asarray(self.model.soil_of_block < 0)
 
     def result(self, there: Pose) -> Peaks:
         """With the residual displacements, and the pose of the blocks that is the last of all."""

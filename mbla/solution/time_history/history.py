@@ -65,7 +65,8 @@ class Peaks:
     ends          : (n_blocks, 6) m, rad, displacements and rotation vectors of the blocks there, from as built
     wanders       : (n_blocks,) m, greatest distance from there over the last tenth of the duration
     openings, slips : (n_interfaces,) m of the interfaces of the assembly, between corners that touched as built
-    falling       : (n_blocks,) s when a block has fallen: by half of its height, or tilted by 60 degrees; else nan
+    falling       : (n_blocks,) s when a block has fallen: by half of its height, or tilted by 60 degrees; a cell of
+                    soil by half of the height of its soil; else nan
     """
 
     displacements: FloatArray

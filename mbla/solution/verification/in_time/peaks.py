@@ -25,7 +25,8 @@ from mbla.solution.verification.in_time.points import openings_and_slips
 from mbla.solution.verification.in_time.said import SAME
 
 FALLEN, TILTED = 0.5, np.pi / 3.0
-"""Share of its height by which a block is lower that has fallen, and angle by which one is tilted that turns over."""
+"""Share of its height by which a block is lower that has fallen, and angle by which one is tilted that turns over.
+Soil falls as a whole: each of its cells by that share of all of its height, however it turns."""
 
 WINDOW = 0.1
 """Share of the duration, at its end, over which the residual displacement is taken."""
@@ -160,13 +161,13 @@ class PeakCheck:
         """Blocks that are said to have fallen are lower by half of their height or have turned over; no others are."""
         blocks, falling, own = self.solids.model.blocks, self.peaks.falling, np.arange(len(self.solids.label))
         down, frames = self._down(), self.frames
-        along, first = blocks.vertices @ down, blocks.vertex_start[:-1]
-        height = np.maximum.reduceat(along, first) - np.minimum.reduceat(along, first)
+        height = self._heights(down)
         lower = self._moved @ down / height
         turns = np.stack([rotations_of(each) for each in frames.turns])
         tilts = np.arccos(np.clip(np.einsum("i,fnij,nkj,k->fn", down, turns, turns[0], down), -1.0, 1.0))
+        by_tilt = TILTED * np.where(self.solids.model.soil_of_block < 0, 1.0, np.inf)
         fallen = ~np.isnan(falling)
-        seen = (lower > FALLEN * (1.0 + SAME)) | (tilts > TILTED * (1.0 + SAME))
+        seen = (lower > FALLEN * (1.0 + SAME)) | (tilts > by_tilt * (1.0 + SAME))
         when = np.where(seen.any(axis=0), frames.times[seen.argmax(axis=0)], np.inf)
         late = np.where(fallen, falling, np.inf) > when * (1.0 + SAME)
         if late.any():
@@ -175,9 +176,19 @@ class PeakCheck:
         by_speed = self._between(np.abs(frames.velocities[:, :, :3] @ down)) / height
         by_spin = self._between(np.linalg.norm(frames.velocities[:, :, 3:], axis=2), self._size)
         near = self._reached(lower, by_speed)[frame, own] >= FALLEN * (1.0 - SAME)
-        near |= self._reached(tilts, by_spin)[frame, own] >= TILTED * (1.0 - SAME)
+        near |= self._reached(tilts, by_spin)[frame, own] >= by_tilt * (1.0 - SAME)
         if (missing := fallen & ~near).any():
             yield f"{blocks.name(int(missing.argmax()))} is said to have fallen, and no frame shows it"
+
+    def _heights(self, down: FloatArray) -> FloatArray:
+        """Along a direction, (n_blocks,): of each block, of a cell that of its soil."""
+        blocks, soil = self.solids.model.blocks, self.solids.model.soil_of_block
+        whole = np.where(soil < 0, len(self.solids.model.soils) + np.arange(len(blocks)), soil)
+        of_corner, along = whole[blocks.block_of_vertex], blocks.vertices @ down
+        least, most = np.full((2, len(self.solids.model.soils) + len(blocks)), [[np.inf], [-np.inf]])
+        np.minimum.at(least, of_corner, along)
+        np.maximum.at(most, of_corner, along)
+        return np.asarray((most - least)[whole])
 
     @staticmethod
     def _reached(values: FloatArray, between: FloatArray) -> FloatArray:
