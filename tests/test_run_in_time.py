@@ -56,6 +56,7 @@ def test_tables_of_histories(shaken: tuple[Results, Path]) -> None:
     assert [row["point"] for row in rows[:2]] == ["base", "top"]
     base = np.array([float(row["absolute_displacement_x [m]"]) for row in rows if row["point"] == "base"])
     top = [row for row in rows if row["point"] == "top"]
+    assert float(top[0]["absolute_acceleration_x [m/s2]"]) == 0.0  # it is at rest
     relative, absolute = (
         np.array([float(row[f"{kind}_x [m]"]) for row in top]) for kind in ("displacement", "absolute_displacement")
     )

@@ -189,7 +189,9 @@ HISTORIES.fields(
     ),
     velocities=Field("velocity of each, relative to the base", "instant recorded_point axis", unit="speed"),
     accelerations=Field(
-        "absolute acceleration of each, mean since the one before", "instant recorded_point axis", unit="acceleration"
+        "absolute acceleration of each, mean since the one before; 0 in the first, at rest",
+        "instant recorded_point axis",
+        unit="acceleration",
     ),
     openings=Field(
         "greatest opening of each interface that the deck names, between corners that touched as built",

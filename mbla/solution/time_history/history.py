@@ -21,7 +21,8 @@ class RecordedHistories:
     velocity_times : (m,) s, instants of the velocities: half of the last step before, which may be a small one
     displacements : (m, n_points, 3) m, relative to the base, from rest
     velocities    : (m, n_points, 3) relative to the base
-    accelerations : (m, n_points, 3) absolute, of the base and relative: means since the velocity before
+    accelerations : (m, n_points, 3) absolute, of the base and relative: means since the velocity before,
+                    0 at the first instant
     base          : (m, 3, 3) displacement, velocity and acceleration of the base
     openings, slips : (m, n_interfaces) m, the largest between corners of the two bodies that touched as built
     forces        : (m, n_interfaces, 3) sum of the forces on body b at the points of both bodies, along x, y, z

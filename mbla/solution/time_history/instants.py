@@ -61,7 +61,7 @@ class Instants:
         moved -= self.rest.displacements(blocks, self._owners, self._points)
         speed = self._speeds(state, there)
         middle, history = state.time - 0.5 * state.length, self.bodies.history
-        acceleration = np.zeros_like(speed) + history.base_acceleration(state.time)
+        acceleration = np.zeros_like(speed)
         if before is not None:
             # the middles of the last steps before both, which may be small ones; of the base the mean between them too
             begin = before.time - 0.5 * before.length

@@ -185,6 +185,7 @@ FORGED: dict[str, tuple[Change, str]] = {
     "the base of a frame": (of_frames(base=add(1e-5, 9, 0)), "time-base"),
     "the base of the histories": (of_history("base", 1e-4), "time-base"),
     "a history": (of_history("displacements", 1e-4), "time-histories"),
+    "an acceleration at rest": (of_part("histories", {"accelerations": add(1.0, 0, 0, 0)}), "time-histories"),
     "the instant of a velocity": (of_history("velocity_times", 1e-4), "time-histories"),
     "a velocity that spectra are made of": (of_history("velocities", 0.05), "time-histories"),
     "spectra": (of_spectra(points=times(1.02)), "time-histories"),

@@ -96,6 +96,8 @@ class HistoryCheck:
         next_one = np.minimum(at + 1, len(found.times) - 1)
         known = ~np.isnan(gains).any(axis=1) & (at + 1 < len(found.times))
         shaken = base_changes(self.history, *ends) / (ends[1] - ends[0])[:, None]
+        if found.accelerations[0, number].any():
+            yield Message("time-histories", f"{point.name} is at rest at first, and its acceleration is not 0 there")
         relative = found.accelerations[next_one, number] - shaken
         largest = max(
             float(np.abs(found.accelerations[:, number]).max(initial=0.0)), largest / self.history.step * FAST
