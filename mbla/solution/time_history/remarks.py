@@ -42,11 +42,17 @@ def _remarks(model: Model, case: LoadCase, result: TimeHistoryResult) -> Iterato
         )
         yield Message("time-history-coarse", words)
     if model.soils:
-        words = (
-            "soil slips along the edges of its cells alone, as they are divided: it may hold where soil would slip, "
-        )
-        yield Message("time-history-soil", words + "and what it holds may move too little")
+        yield Message("time-history-soil", _soil_words(model, case))
     if rows.missed[-1] > 0 and not is_rough(rows):
         yield Message("time-history-missed", missed_words(rows))
     if still_moves(model, result):
         yield Message("history-still-moves", STILL_MOVES)
+
+
+def _soil_words(model: Model, case: LoadCase) -> str:
+    """Of cells as they are, which other load cases may have moved the corners of."""
+    moved = any(soil.moved for soil in model.soils)
+    how = "where other load cases slip, which have moved their corners" if moved else "as they are divided"
+    words = f"soil slips along the edges of its cells alone, {how}: it may hold where soil would slip, "
+    words += "and what it holds may move too little"
+    return f"{words}; mbla run --case {case.name} follows it on cells as they are divided" if moved else words
