@@ -63,6 +63,7 @@ REMARKS_THAT_WARN = frozenset(
         "sensitivity-not-done",
         "soil-mesh-scatters",
         "tilt-between-not-proved",
+        "time-history-ductile",
         "time-history-soft",
         "time-history-soil",
     }
@@ -91,6 +92,7 @@ FOUND_AGAIN = frozenset(
         "soil-mesh-scatters",
         "tilt-between-not-proved",
         "time-history-coarse",
+        "time-history-ductile",
         "time-history-missed",
         "time-history-soft",
         "time-history-soil",

@@ -81,7 +81,7 @@ def remarks_found_again(deck: Deck, assembly: Assembly, case: CaseResult) -> tup
         found += modes_remarks(model, load_case, solution.further.modes)
         found += [modes_wrong(words) for words in checked_modes(there, solution.further.modes)[1]]
     found += modes_after_remarks(deck, assembly, case)
-    found += history_remarks(model, load_case, solution.further.time_history)
+    found += history_remarks(model, contacts, load_case, solution.further.time_history)
     if deck.analysis.sensitivity is not False:
         against = why_no_sensitivity(load_case, solution, case.checks)
         found += [no_sensitivity(against)] if against else []

@@ -75,7 +75,7 @@ def follow(
 
     def so_far() -> Followed:
         result = found(HistoryEnd.STOPPED)
-        return result, history_remarks(model, case, result), way.checkpoint
+        return result, history_remarks(model, assembly.contacts, case, result), way.checkpoint
 
     tell(so_far)
     end = way.followed()
@@ -83,7 +83,7 @@ def follow(
     if bodies.history.check and end is not HistoryEnd.LATE:
         half = _half_step(bodies, assembly.contacts, place, settings, watch)
         result = replace(result, half=half, seconds=spent + time.perf_counter() - started)
-    return result, history_remarks(model, case, result)
+    return result, history_remarks(model, assembly.contacts, case, result)
 
 
 @dataclass

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from mbla.contacts.contacts import Contacts
 from mbla.errors import Message
 from mbla.model.model import LoadCase, Model
+from mbla.solution.time_history.ductile import ductile_remark
 from mbla.solution.time_history.history import TimeHistoryResult
 from mbla.solution.time_history.judged import is_rough, missed_words
 from mbla.solution.time_history.still_moves import STILL_MOVES, still_moves
@@ -17,15 +19,15 @@ COARSE = 20.0
 """Steps in the first period at least: a step damps by ωh/2 of critical damping, which is less than π/20 then."""
 
 
-def history_remarks(model: Model, case: LoadCase, result: TimeHistoryResult) -> tuple[Message, ...]:
+def history_remarks(model: Model, contacts: Contacts, case: LoadCase, result: TimeHistoryResult) -> tuple[Message, ...]:
     """All of them.
 
     model : as it may move under the load case
     """
-    return tuple(_remarks(model, case, result))
+    return tuple(_remarks(model, contacts, case, result))
 
 
-def _remarks(model: Model, case: LoadCase, result: TimeHistoryResult) -> Iterator[Message]:
+def _remarks(model: Model, contacts: Contacts, case: LoadCase, result: TimeHistoryResult) -> Iterator[Message]:
     history, rows = case.time_history, result.rows
     if history is None or rows is None:
         return
@@ -43,6 +45,8 @@ def _remarks(model: Model, case: LoadCase, result: TimeHistoryResult) -> Iterato
         yield Message("time-history-coarse", words)
     if model.soils:
         yield Message("time-history-soil", _soil_words(model, case))
+    if (remark := ductile_remark(model, contacts, result)) is not None:
+        yield remark
     if rows.missed[-1] > 0 and not is_rough(rows):
         yield Message("time-history-missed", missed_words(rows))
     if still_moves(model, result):

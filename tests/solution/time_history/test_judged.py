@@ -14,7 +14,7 @@ from mbla.solution.time_history.judged import differs_by_step, judged
 from mbla.solution.time_history.remarks import history_remarks
 from mbla.solution.time_history.step_rows import HistoryEnd
 from tests.results.rocking import asked, rocks, step_rows
-from tests.results.synthetic import tower_model
+from tests.results.synthetic import tower_contacts, tower_model
 
 MODEL = tower_model()
 CASE = replace(MODEL.load_cases[0], time_history=asked())
@@ -82,12 +82,12 @@ def test_what_joints_give_anyway_is_no_difference() -> None:
     ],
 )
 def test_remarks(found: TimeHistoryResult, identifiers: list[str]) -> None:
-    assert [remark.identifier for remark in history_remarks(MODEL, CASE, found)] == identifiers
+    assert [remark.identifier for remark in history_remarks(MODEL, tower_contacts(), CASE, found)] == identifiers
 
 
 def test_a_few_missed_steps_are_told() -> None:
     rows = step_rows()
     long = {name: np.tile(getattr(rows, name), 3) for name in vars(rows)}
     many = replace(rows, **long | {"missed": np.ones(3 * len(rows), dtype=np.int64)})
-    (remark,) = history_remarks(MODEL, CASE, replace(FOUND, period=1.0, rows=many))
+    (remark,) = history_remarks(MODEL, tower_contacts(), CASE, replace(FOUND, period=1.0, rows=many))
     assert remark.startswith("1 of 1234 steps were not solved even when halved four times")

@@ -44,5 +44,5 @@ def test_still_moves(of_peaks: dict[str, Any], kinetic: float, end: HistoryEnd, 
     found = replace(rocks(), end=end, rows=rows, peaks=replace(peaks(), **of_peaks))
     assert still_moves(MODEL, found) is moves
     case = replace(RESULTS.cases[0].load_case, time_history=asked())
-    identifiers = [remark.identifier for remark in history_remarks(MODEL, case, found)]
+    identifiers = [remark.identifier for remark in history_remarks(MODEL, RESULTS.contacts, case, found)]
     assert ("history-still-moves" in identifiers) is moves

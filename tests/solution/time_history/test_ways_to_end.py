@@ -84,3 +84,20 @@ def test_half_of_the_step_is_told() -> None:
     assert found.half is not None
     assert found.peaks is not None
     assert found.half.peak == pytest.approx(found.peaks.peak, rel=0.05)
+
+
+@pytest.mark.parametrize(
+    ("joint", "told"),
+    [
+        ("friction: 0.6", []),
+        ("friction: 0.6, cohesion: 30000, tensile_strength: 20000", ["opened", "slid"]),
+        ("friction: 0.6, cohesion: 300000, tensile_strength: 200000", []),
+    ],
+)
+def test_joints_that_tear_and_hold_all_the_same_are_told(joint: str, told: list[str]) -> None:
+    """A dry block rocks and is none, mortar is torn by the pulse, and one ten times as strong holds."""
+    box = "[{box: {material: stone, min: [0, 0, 0], max: [0.3, 0.5, 0.9]}}]"
+    motion = "motion: {pulse: half_sine, amplitude: 1.2 g, duration: 0.4, direction: x}, step: 0.004, duration: 0.3"
+    _, remarks, _ = followed(deck_text(box, motion, joint))
+    words = " ".join(remark for remark in remarks if remark.identifier == "time-history-ductile")
+    assert [how for how in ("opened", "slid") if f"{how} by" in words] == told
