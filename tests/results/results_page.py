@@ -43,7 +43,7 @@ CELLS = {
     "blocks": "blocks as polyhedra, in their order; no two share a point",
     "frames": "(…_frame_NNN.vtu) the same after a finite motion, from as built to as drawn, which STEM_CASE.pvd plays; "
     "(…_pushed_NNN.vtu) where they are at the steps of a pushover, which STEM_CASE_pushed.pvd plays; "
-    "(…_history_NNN.vtu) in time, which STEM_CASE_history.pvd plays",
+    "(…_history_NNN.vtu) in time, the end with no velocity (nan), which STEM_CASE_history.pvd plays",
     "forces": "(…_history_forces_NNN.vtu) contact points that bear in time as vertices where they are, which "
     "STEM_CASE_history_forces.pvd plays",
     "contacts": "contact points as vertices",

@@ -147,6 +147,18 @@ def history_motion(frames: Frames, state: int) -> FloatArray:
     return twists_to(frames.shifts[state], frames.turns[state])
 
 
+def end_motion(found: TimeHistoryResult) -> tuple[float, FloatArray] | None:
+    """When it ends, s, and the same there; None where no state that is kept begins before that.
+
+    States begin with a step, and after the last one there is none.
+    """
+    assert found.rows is not None  # as frames are
+    assert found.frames is not None
+    assert found.peaks is not None
+    end, ends = float(found.rows.times[-1]), found.peaks.ends
+    return (end, twists_to(ends[:, :3], ends[:, 3:])) if end > float(found.frames.times[-1]) else None
+
+
 def peak_state(found: TimeHistoryResult) -> int:
     """The state that is kept next to the greatest displacement; the last one of a structure that falls."""
     assert found.frames is not None  # a structure that stands has states

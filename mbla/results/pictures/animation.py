@@ -18,7 +18,7 @@ import numpy as np
 
 from mbla.arrays import evenly
 from mbla.errors import FileError, UsageError
-from mbla.results.collapse.motion import history_motion, pushed_motions
+from mbla.results.collapse.motion import end_motion, history_motion, pushed_motions
 from mbla.results.pictures.drawing import draw_on, drawing_of, extent_of
 from mbla.results.pictures.options import PictureOptions
 from mbla.results.pictures.page import open_frames
@@ -96,15 +96,17 @@ def write_animation(results: Results, case: CaseResult, path: Path, options: Pic
 
 
 def _in_time(widest: PictureScene, found: TimeHistoryResult, scale: float) -> list[PictureScene]:
-    """States of a structure in time, as many as a film in its own time has, at most ``MOST_IN_TIME``."""
+    """States of a structure in time, as many as a film in its own time has, at most ``MOST_IN_TIME``, and its end."""
     frames = found.frames
     assert frames is not None  # asked for where there are
     seconds = float(frames.times[-1] - frames.times[0])
     most = min(MOST_IN_TIME, max(round(seconds * FRAMES_PER_SECOND), 2))
     how = "" if scale == 1.0 else f", {scale:g} times its displacements"
+    shown = [(float(frames.times[state]), history_motion(frames, state)) for state in evenly(len(frames), most)]
+    end = end_motion(found)
     return [
-        replace(widest, drawn=scale * history_motion(frames, state), moment=f"at {frames.times[state]:.2f} s{how}")
-        for state in evenly(len(frames), most)
+        replace(widest, drawn=scale * motion, moment=f"at {time:.2f} s{how}")
+        for time, motion in (shown if end is None else [*shown, end])
     ]
 
 

@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from mbla.arrays import FloatArray
 from mbla.results.collapse.motion import history_motion
 from mbla.results.record.scene import Scene
 from mbla.results.vtu.meshes import Mesh, frame_mesh
@@ -34,6 +35,11 @@ class HistoryStates:
         arms = mesh.points - (blocks.centroids + self.frames.shifts[state])[of_vertex]
         velocity = motion[:, :3] + np.cross(motion[:, 3:], arms)
         return replace(mesh, point_data=mesh.point_data | {"velocity": velocity})
+
+    def end(self, motion: FloatArray) -> Mesh:
+        """Blocks after the motion to the end, (n_blocks, 6); no velocity is known after it."""
+        mesh = frame_mesh(self.scene, motion)
+        return replace(mesh, point_data=mesh.point_data | {"velocity": np.full_like(mesh.points, np.nan)})
 
     def forces(self, state: int) -> Mesh | None:
         """Contact points that press or pull; None where there are none."""

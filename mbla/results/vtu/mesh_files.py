@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from mbla.arrays import FloatArray, evenly
-from mbla.results.collapse.motion import pushed_motions
+from mbla.results.collapse.motion import end_motion, pushed_motions
 from mbla.results.files import OutputFolder
 from mbla.results.listing.verdict_words import verdict
 from mbla.results.pictures.camera import axes_of, view_of_case
@@ -108,9 +108,9 @@ def _write_animation(scene: Scene, stem: str, out: OutputFolder, frames: int) ->
 
 
 def _write_history(scene: Scene, stem: str, out: OutputFolder) -> bool:
-    """States of a structure in time, and its contact forces at them; whether there are such."""
-    found = None if scene.case is None else scene.case.solution.further.time_history.frames
-    if found is None:
+    """States of a structure in time and where it ends, and its contact forces at states; whether there are such."""
+    history = None if scene.case is None else scene.case.solution.further.time_history
+    if history is None or (found := history.frames) is None:
         return False
     kinds: dict[str, Callable[[HistoryStates, int], Mesh | None]]
     kinds = {stem: HistoryStates.blocks, f"{stem}_forces": HistoryStates.forces}
@@ -122,6 +122,10 @@ def _write_history(scene: Scene, stem: str, out: OutputFolder) -> bool:
             for file, state in files.items()
             if _write(mesh_of(states, state), file, out)
         }
+        if name == stem and (end := end_motion(history)) is not None:
+            file = f"{name}_{len(shown):03d}.vtu"
+            _write(states.end(end[1]), file, out)
+            written[file] = end[0]
         out.write_text(f"{name}.pvd", collection_pvd(written))
     return True
 

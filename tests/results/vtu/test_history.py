@@ -11,27 +11,54 @@ import numpy as np
 import pytest
 
 from mbla.deck.content import OutputSection
+from mbla.results.results import CaseResult
 from tests.results.outputs import write_outputs
-from tests.results.rocking import DURATION, WEIGHT, frames, rocking_case, shifts
+from tests.results.rocking import DURATION, STEP, WEIGHT, frames, rocking_case, shifts
 from tests.results.synthetic import tower_results
+
+RESULTS = tower_results()
 
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    results, folder = tower_results(), tmp_path_factory.mktemp("rocks")
-    case = rocking_case(results.cases[0])
-    shown = results.assembly.with_load_cases((case.load_case, *results.model.load_cases[1:]))
-    rocks = replace(results, assembly=shown, cases=(case,))
-    write_outputs(rocks, folder, "tower", force=False, output=OutputSection())
+    folder = tmp_path_factory.mktemp("rocks")
+    write(rocking_case(RESULTS.cases[0]), folder)
     return folder
 
 
+def write(case: CaseResult, folder: Path) -> None:
+    shown = RESULTS.assembly.with_load_cases((case.load_case, *RESULTS.model.load_cases[1:]))
+    rocks = replace(RESULTS, assembly=shown, cases=(case,))
+    write_outputs(rocks, folder, "tower", force=False, output=OutputSection())
+
+
+def played_in(folder: Path) -> list[tuple[str, str]]:
+    """Times and files of the film."""
+    return re.findall(r'timestep="([^"]+)".*file="([^"]+)"', (folder / "tower_shaken_history.pvd").read_text("utf-8"))
+
+
 def test_a_file_for_each_state_with_its_time(folder: Path) -> None:
-    played = re.findall(r'timestep="([^"]+)".*file="([^"]+)"', (folder / "tower_shaken_history.pvd").read_text("utf-8"))
+    played = played_in(folder)
     times = [float(time) for time, _ in played]
     assert times == pytest.approx(frames().times.tolist())
     assert times[-1] == pytest.approx(DURATION)
     assert all((folder / name).exists() for _, name in played)
+
+
+def test_the_end_is_played_after_the_last_state(tmp_path: Path) -> None:
+    """States begin with a step: here the last one is kept a step before the end."""
+    case = rocking_case(RESULTS.cases[0])
+    found = case.solution.further.time_history
+    assert found.rows is not None
+    found = replace(found, rows=replace(found.rows, times=np.append(found.rows.times[:-1], DURATION + STEP)))
+    further = replace(case.solution.further, time_history=found)
+    write(replace(case, solution=replace(case.solution, further=further)), tmp_path)
+    played = played_in(tmp_path)
+    assert (len(played), float(played[-1][0])) == (len(frames()) + 1, DURATION + STEP)
+    mesh = meshio.read(tmp_path / played[-1][1])
+    assert found.peaks is not None
+    assert mesh.point_data["displacement"][8:16].mean(axis=0) == pytest.approx(found.peaks.ends[1, :3], abs=1e-12)
+    assert np.isnan(mesh.point_data["velocity"]).all()  # of the step after it
 
 
 def test_blocks_are_where_they_are(folder: Path) -> None:
