@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import h5py
@@ -11,7 +12,8 @@ import numpy as np
 import pytest
 
 from mbla.results.hdf5.result_file import read_results_hdf5
-from mbla.results.listing.sections.modes import modes_words
+from mbla.results.listing.blocks import Paragraph
+from mbla.results.listing.sections.modes import NOT_TOGETHER, modes_blocks, modes_words
 from mbla.results.results import Results
 from mbla.results.tables.tables import tables_of
 from mbla.run import RunOptions, run
@@ -59,6 +61,17 @@ def test_periods_stand_beside_each_other(slid: tuple[Results, Path]) -> None:
     assert case["modes_after"]["period"] == pytest.approx(after.period)
     assert other["modes_after"] is None
     assert len(tables_of(results, ("modes_after",))["modes_after"]) == 6
+
+
+def test_modes_say_that_they_have_no_blocks_that_move_as_one(slid: tuple[Results, Path]) -> None:
+    """In the time history they do."""
+    case = slid[0].case("slides")
+    history = case.load_case.time_history
+    assert history is not None
+    rigid = replace(case.load_case, time_history=replace(history, rigid=(np.arange(2),)))
+    for load_case, said in ((case.load_case, False), (rigid, True)):
+        blocks = modes_blocks(slid[0].assembly, replace(case, load_case=load_case))
+        assert (Paragraph(NOT_TOGETHER) in blocks) is said
 
 
 def test_shapes_are_drawn_where_blocks_end(slid: tuple[Results, Path]) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from mbla.assembly.assembly import Assembly
+from mbla.model.motion.time_history import TimeHistory
 from mbla.results.listing.blocks import GAP, MOST_ROWS, Block, Paragraph, apart, table_of
 from mbla.results.listing.text import counted, number
 from mbla.results.results import CaseResult
@@ -15,6 +16,12 @@ AT_POINTS = (
     "less: its own first period, given with it, is shorter."
 )
 """of modes beside a time history"""
+
+NOT_TOGETHER = (
+    "Blocks that `rigid` lets move as one in the time history are blocks by themselves here: modes have the joints "
+    "between them as well, and longer periods."
+)
+"""of modes beside a time history in which some blocks move as one"""
 
 HOW_COMPARED = (
     "Blocks are where it left them. A longer period says that joints have opened or stones have slid. Modes are "
@@ -64,9 +71,19 @@ def modes_blocks(assembly: Assembly, case: CaseResult) -> list[Block]:
         )
     ]
     head = ["mode", "period [s]", "frequency [Hz]", "mass x", "mass y", "mass z", "sum x", "sum y", "sum z"]
-    beside = [] if case.load_case.time_history is None else [Paragraph(AT_POINTS)]
-    found = [Paragraph(says), *beside, *apart(table_of(head, rows, left=0, total=len(modes)))]
+    found = [
+        Paragraph(says),
+        *_beside(case.load_case.time_history),
+        *apart(table_of(head, rows, left=0, total=len(modes))),
+    ]
     return [*found, *_after_blocks(case)]
+
+
+def _beside(history: TimeHistory | None) -> list[Block]:
+    """How modes differ from the time history that they are beside."""
+    if history is None:
+        return []
+    return [Paragraph(AT_POINTS), *([Paragraph(NOT_TOGETHER)] if history.rigid else [])]
 
 
 def _after_blocks(case: CaseResult) -> list[Block]:
