@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
+from mbla.deck import read_deck_text
+from mbla.model import build_model
 from mbla.solution.solution import Status
 from mbla.solution.time_history.history import HalfStep, TimeHistoryResult
 from mbla.solution.time_history.judged import differs_by_step, judged
@@ -15,11 +18,13 @@ from mbla.solution.time_history.remarks import history_remarks
 from mbla.solution.time_history.step_rows import HistoryEnd
 from tests.results.rocking import asked, rocks, step_rows
 from tests.results.synthetic import tower_contacts, tower_model
+from tests.solution.time_history.followed import deck_text
 
 MODEL = tower_model()
 CASE = replace(MODEL.load_cases[0], time_history=asked())
 FOUND = rocks()
 PEAK = float(FOUND.peaks.displacements.max()) if FOUND.peaks else 0.0
+MOTION = "motion: {pulse: sine, amplitude: 0.3 g, duration: 0.5, direction: x}, step: 0.004"
 NOTHING: dict[str, Any] = dict.fromkeys(("rows", "frames", "histories", "peaks", "half"))
 
 
@@ -91,3 +96,17 @@ def test_a_few_missed_steps_are_told() -> None:
     many = replace(rows, **long | {"missed": np.ones(3 * len(rows), dtype=np.int64)})
     (remark,) = history_remarks(MODEL, tower_contacts(), CASE, replace(FOUND, period=1.0, rows=many))
     assert remark.startswith("1 of 1234 steps were not solved even when halved four times")
+
+
+@pytest.mark.parametrize("moved", [False, True])
+def test_whose_corners_of_soil_they_are(moved: bool) -> None:
+    """Other load cases may have moved them, then it is told how to follow it without these."""
+    soil = "[{soil: {group: sand, material: stone, width: 1, outline: [[0, 0], [1, 0], [1, 1], [0, 1]]"
+    deck = read_deck_text(deck_text(f"{soil}, cells: {{size: 1}}, friction_angle: 33}}}}]", MOTION), Path("deck.yaml"))
+    model = build_model(deck)
+    model = replace(model, soils=tuple(replace(soil, moved=moved) for soil in model.soils))
+    found = replace(FOUND, period=1.0, **NOTHING | {"rows": FOUND.rows})
+    (remark,) = history_remarks(model, tower_contacts(), model.load_cases[0], found)
+    assert remark.identifier == "time-history-soil"
+    assert ("other load cases" in remark) is moved
+    assert ("mbla run --case case" in remark) is moved
