@@ -12,22 +12,36 @@ from mbla.solution.pushover.pose.pose_step import PoseStep
 from mbla.solution.pushover.pose.solved_step import solved
 from mbla.solution.pushover.pose.structure import PushedStructure
 
+FITTED, LEFT = 30, 1e-9
+"""Times at most that ties are stretched anew until each carries its prestress at rest, and what may be left of that."""
 
-def at_rest(structure: PushedStructure, ratio: float, *, settles: bool = False) -> tuple[PushedPlace | None, int]:
+
+def at_rest(
+    structure: PushedStructure, ratio: float, *, settles: bool = False, prestressed: bool = False
+) -> tuple[PushedPlace | None, int]:
     """Where the structure rests, None where that is not found, and the factorisations that took.
 
     ratio   : stiffness of joints along over that across
     settles : whether a support is held that gives way later
+    prestressed : whether ties have their prestress, on which load factors and what is pushed do not depend
     """
     none = np.zeros(structure.n_solids, dtype=np.bool_)
     ties, pose = TieHistory.at_rest(structure.model.ties), Pose.at_rest(structure.n_solids)
     joints = MovedJoints.at_pose(structure, pose, none, ties.broken(structure.model.ties), ratio)
     slips = np.zeros((joints.components - 1, joints.n_points))
-    history = History(np.zeros((joints.components, joints.n_points)), slips)
-    step = PoseStep(joints, history, joints.there(pose, 0.0), 0.0, 0.0, driven=settles)
-    found = solved(step)
-    if found is None or not found.solved:
-        return None, step.spent
+    values, there = np.zeros((joints.components, joints.n_points)), joints.there(pose, 0.0)
+    wanted, spent = joints.prestress if prestressed else np.zeros(joints.n_points), 0
+    values[0] = wanted
+    for _ in range(FITTED):
+        step = PoseStep(joints, History(values, slips), there, 0.0, 0.0, driven=settles)
+        found = solved(step)
+        spent += step.spent
+        if found is None or not found.solved:
+            return None, spent
+        carried = np.where(wanted != 0.0, found.forces.normal, 1.0)
+        if float(np.abs(carried - wanted)[wanted != 0.0].max(initial=0.0)) <= LEFT * float(np.abs(wanted).max()):
+            break
+        values[0] *= np.where(wanted != 0.0, wanted / carried, 1.0)  # of what joints give as ties are stretched
     after, factor = step.after(found.at, found.forces.normal), joints.full.scaling.load_factor(found.factor)
     twists = np.zeros((len(none), 6))
-    return PushedPlace(found.at, joints, after, None, factor, twists, 0.0, ties, Energy()), step.spent
+    return PushedPlace(found.at, joints, after, None, factor, twists, 0.0, ties, Energy()), spent

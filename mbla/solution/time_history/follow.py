@@ -62,7 +62,7 @@ def follow(
     """
     started, spent = time.perf_counter(), 0.0 if begin is None else begin.found.seconds
     bodies, model = MovingBodies.of(assembly, section, case), assembly.model
-    place, _ = at_rest(bodies.structure, RATIO)
+    place, _ = at_rest(bodies.structure, RATIO, prestressed=True)
     if place is None:
         return TimeHistoryResult(HistoryEnd.NO_REST), ()
     way = TimeWay.of(bodies, assembly.contacts, place, settings.deadline, watch)

@@ -115,11 +115,11 @@ def test_a_block_on_elastic_joints() -> None:
 
 
 def test_what_slides_feels_no_more_than_friction_gives() -> None:
-    """In no step, and however long the step is beside the motion of the base."""
+    """In no step, and however long the step is beside the motion of the base: a step is solved to 1e-3 of free fall."""
     box = "[{box: {group: b, material: stone, min: [0, 0, 0], max: [1, 1, 0.3]}}]"
     steps = "motion: {pulse: sine, amplitude: 0.5 g, duration: 0.2, direction: x}, step: 0.01, duration: 0.3"
     steps += ", record: {points: {top: {on: {group: b}, at: [0.5, 0.5, 0.3]}}}"
     found = followed(deck_text(box, steps, "friction: 0.2"))[0].histories
     assert found is not None
     assert np.abs(found.displacements[:, 0, 0]).max() > 0.005
-    assert np.abs(found.accelerations[:, 0, 0]).max() == pytest.approx(0.2 * G, rel=2e-3)
+    assert np.abs(found.accelerations[:, 0, 0]).max() == pytest.approx(0.2 * G, abs=1e-3 * G)

@@ -64,6 +64,29 @@ def test_a_tie_holds_a_block_or_breaks() -> None:
     assert taken[0] > 10.0 * taken[1] > 0.0  # it yields, or breaks as soon as it would
 
 
+@pytest.mark.parametrize(("capacity", "breaks"), [(1e6, False), (400.0, True)])
+def test_a_brittle_tie_stretches_before_it_breaks(capacity: float, *, breaks: bool) -> None:
+    """Of what its spring gives it does not break, but at its capacity: the base pulls with some 600 N."""
+    box = "[{box: {group: b, material: stone, min: [0, 0, 0], max: [0.2, 0.3, 1]}}]"
+    motion = "motion: {pulse: rectangle, amplitude: 0.5 g, duration: 0.1, direction: x}, step: 0.005, duration: 0.1"
+    tie = f"through: [[0.2, 0.15, 0.5], [2, 0.15, 0.5]], on: [b, ground], capacity: {capacity}, breaks_at: 0"
+    found, _, _ = followed(deck_text(box, motion + ", record: {every: 0.005}", "friction: 0.01", f"ties: [{{{tie}}}]"))
+    assert found.frames is not None
+    assert bool((found.frames.sets[-1].bodies[:, 0] < 0).any()) is not breaks
+
+
+def test_a_tie_has_its_prestress_at_rest() -> None:
+    """15 kN down through a stack: the foot carries it with the weight."""
+    stack = "[{stack: {group: s, material: stone, block: [0.4, 0.4, 0.6], count: 3}}]"
+    motion = "motion: {pulse: sine, amplitude: 0.01 g, duration: 0.1, direction: x}, step: 0.01, duration: 0.02"
+    tie = "through: [[0.2, 0.2, 1.8], [0.2, 0.2, -0.5]], on: [{group: s, drum: 2}, ground], capacity: 30000"
+    record = ", record: {interfaces: {foot: {between: [{group: s, drum: 0}, ground]}}}"
+    found, _, _ = followed(deck_text(stack, motion + record, more=f"ties: [{{{tie}, prestress: 15000}}]"))
+    assert found.histories is not None
+    weight = 2000.0 * 0.4 * 0.4 * 1.8 * 9.81
+    assert abs(found.histories.forces[0, 0, 2]) == pytest.approx(15000.0 + weight, rel=1e-4)
+
+
 def test_a_history_goes_on_to_the_same_figures() -> None:
     """From a step on."""
     text = random_scene(5, 0.2)

@@ -134,7 +134,7 @@ def _made(
         momenta=momenta,
         free=joints.free,
         shear=shear,
-        ties=_ties(state, pose, h * velocities),
+        ties=_ties(state, pose, h * velocities, joints.free),
         energies=state.energies.plus(_energies(bodies, state, flight, joints, found.forces, shear, velocities, mean)),
         counts=counts,
     )
@@ -183,10 +183,13 @@ def h_mean(state: TimeState, h: float) -> float:
     return 0.5 * (state.length + h)
 
 
-def _ties(state: TimeState, pose: Pose, twists: FloatArray) -> TieHistory:
-    """History of ties after twists of the solids, (n_solids, 6)."""
-    if not len(state.joints.structure.model.ties):
+def _ties(state: TimeState, pose: Pose, twists: FloatArray, free: FloatArray) -> TieHistory:
+    """History of ties after twists of the solids, (n_solids, 6): they yield by what their springs do not give."""
+    joints = state.joints
+    if not len(joints.structure.model.ties):
         return state.ties
     history = History(np.vstack([state.free[None], state.shear]), state.at.offsets[1:])
-    place = PushedPlace(state.at, state.joints, history, None, 0.0, twists, 0.0, state.ties, Energy())
-    return ties_after(place, pose, twists)
+    place = PushedPlace(state.at, joints, history, None, 0.0, twists, 0.0, state.ties, Energy())
+    yielded = state.ties.yielded.copy()
+    yielded[joints.ties] = np.maximum(yielded[joints.ties], joints.yielded(free))
+    return replace(ties_after(place, pose, twists), yielded=yielded)

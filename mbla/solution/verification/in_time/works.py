@@ -21,7 +21,7 @@ from mbla.solution.time_history.step_rows import StepRows
 from mbla.solution.verification.in_time.bodies import MovedSolids
 from mbla.solution.verification.in_time.contact import FrameContact
 from mbla.solution.verification.in_time.frames import FrameCheck
-from mbla.solution.verification.in_time.loads import dead_wrenches, force_wrenches, on_bodies, senses, tie_limits
+from mbla.solution.verification.in_time.loads import dead_wrenches, force_wrenches, on_bodies, tie_limits
 from mbla.solution.verification.in_time.rows import energy_scale, rows_of_frames, whole_steps
 
 KINDS = ("base", "friction", "contacts", "ties", "forces", "elastic")
@@ -99,7 +99,7 @@ def _stored(contact: FrameContact) -> float:
     """In the springs of joints and ties after the step."""
     normal, surface, stiffness = contact.forces[:, 0].copy(), contact.surface, contact.points.stiffness
     ties = contact.ties
-    fitted = np.clip(senses(ties) * ties.prestress, *tie_limits(ties).T)
-    normal[~surface] -= fitted[contact.points.laws[~surface]]
+    always = np.clip(np.zeros(len(ties)), *tie_limits(ties).T)
+    normal[~surface] -= always[contact.points.laws[~surface]]
     shear = np.where(surface[:, None], contact.friction_kept(), 0.0)
     return 0.5 * float((normal**2 / stiffness[:, 0]).sum() + (shear**2 / stiffness[:, 1:]).sum())
