@@ -120,7 +120,8 @@ class TimeHistoryResult:
     sag      : m, greatest displacement by which the joints give under the dead load
     stiffness : (2,) normal and shear stiffness of the joints, force per volume, mean
     period   : s, first period of the joints that press at rest; nan where it was not needed
-    damping  : share of critical damping at that period that the step and the dashpots have: what was asked and h/2
+    damping  : share of critical damping at that period: what was asked and that of the step, h/2, without those of
+               contact points
     rows, frames, histories, peaks : None where the structure does not stand
     spectra  : of points; None where the deck names none, or the history is too short for them
     half     : with half of the step; None where that was not asked for

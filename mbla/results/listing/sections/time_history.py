@@ -223,6 +223,8 @@ def _steps(model: Model, asked: TimeHistory, found: TimeHistoryResult, figures: 
     ]
     if not np.isnan(found.period):
         damping = f"{asked.damping:.3g} asked, {found.damping:.3g} with that of the step"
+        if asked.contact_damping > 0.0:
+            damping += f"; dashpots of contact points (contact_damping: {asked.contact_damping:g}) come on top"
         rows += [Fact("first period", f"{found.period:.4g} s"), Fact("damping at it", damping)]
     half = found.half
     if half is None:
