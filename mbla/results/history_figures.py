@@ -60,7 +60,7 @@ class HistoryFigures:
 
     @property
     def range_of_peak(self) -> tuple[float, float]:
-        """Least and greatest with the step and with half of it; nan where that is not known."""
+        """The lesser and the greater with the step and with half of it, no bounds of it; nan where not known."""
         both = self.peak, self.peak_of_half_step
         return (math.nan, math.nan) if math.isnan(both[1]) else (min(both), max(both))
 

@@ -71,12 +71,12 @@ def motion_words(model: Model, figures: HistoryFigures, damage: HistoryDamage, e
 
 
 def peak_words(model: Model, figures: HistoryFigures) -> str:
-    """``0.034 m``; ``0.032 to 0.034 m`` where half of the step gives another one."""
+    """``0.034 m``; ``0.034 m (0.032 m with half of the step)`` where that gives another one, which bounds nothing."""
     length = model.units.length
+    peak = f"{figures.peak:.3g} {length}"
     if not figures.half_step > STEP_DEPENDENCE:
-        return f"{figures.peak:.3g} {length}"
-    least, most = figures.range_of_peak
-    return f"{least:.3g} to {most:.3g} {length}"
+        return peak
+    return f"{peak} ({figures.peak_of_half_step:.3g} {length} with half of the step)"
 
 
 def _rest_words(model: Model, figures: HistoryFigures) -> str:

@@ -66,8 +66,10 @@ _declare(
     lambda _, f: f.peak,
     "length",
 )
-_declare("lower", "float", "least peak with the step and half of it", lambda _, f: f.range_of_peak[0], "length")
-_declare("upper", "float", "greatest peak with these", lambda _, f: f.range_of_peak[1], "length")
+_declare(
+    "lower", "float", "lesser peak with the step and half of it; no bound", lambda _, f: f.range_of_peak[0], "length"
+)
+_declare("upper", "float", "greater peak with these; no bound", lambda _, f: f.range_of_peak[1], "length")
 _declare("peak_time", "float", "when that was", lambda _, f: f.peak_time, "time")
 _declare("peak_block", "str", "which block", lambda scene, f: _block(scene, f.peak_block))
 _declare(

@@ -57,9 +57,9 @@ def differs_by_step(found: TimeHistoryResult) -> str:
     if found.end is HistoryEnd.COLLAPSE or not change > STEP_DEPENDENCE:  # of what falls the peak says little
         return ""
     assert found.peaks is not None  # else the change is not known
-    low, high = sorted((half.peak, found.peaks.peak))
     words = f"with half of the step the greatest displacement changes by {100.0 * change:.2g} %"
-    return f"{words}: it is known as a range, {low:.4g} to {high:.4g}"
+    words += f", from {found.peaks.peak:.4g} to {half.peak:.4g}"
+    return f"{words}: it may lie outside of both; halve the step until they agree"
 
 
 def change_by_half_step(found: TimeHistoryResult) -> float:

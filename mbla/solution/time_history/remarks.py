@@ -39,9 +39,7 @@ def _remarks(model: Model, contacts: Contacts, case: LoadCase, result: TimeHisto
         yield Message("time-history-soft", words)
     if history.step > result.period / COARSE:
         words = f"a step of {history.step:g} s is long for the first period of {result.period:.3g} s: vibration of the "
-        words += (
-            f"joints is damped by the step, to {result.damping:.2g} of critical damping; rocking and sliding are not"
-        )
+        words += f"joints is damped by the step, to {result.damping:.2g} of critical damping"
         yield Message("time-history-coarse", words)
     if model.soils:
         yield Message("time-history-soil", _soil_words(model, case))

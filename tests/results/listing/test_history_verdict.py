@@ -66,9 +66,9 @@ def test_moves_on_slowly_beyond_its_unstable_equilibrium() -> None:
     assert "still moves at the end, about 0.001 m (+- 0.0002); no block has fallen" in told(peaks=moving)
 
 
-def test_a_peak_that_depends_on_the_step_is_a_range() -> None:
+def test_a_peak_that_depends_on_the_step_is_given_with_that_of_half() -> None:
     words = told(half=HalfStep(0.08, 0.3, 0.0, HistoryEnd.DURATION))
-    assert words.startswith("rocks, peak 0.0713 to 0.08 m at 0.4 s")
+    assert words.startswith("rocks, peak 0.0713 m (0.08 m with half of the step) at 0.4 s")
     assert words.endswith("; approximate")
 
 
