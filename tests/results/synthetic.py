@@ -298,6 +298,7 @@ def modes() -> Modes:
         pressed=np.array([1.0, 0.5]),
         settlement=np.arange(18.0).reshape(3, 6) * 1e-6,
         loose=np.array([False, True, False]),
+        slack=1,
         residual=1e-12,
         verified=True,
     )

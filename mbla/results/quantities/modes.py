@@ -82,6 +82,7 @@ def _declare(group: Group[Modes], table: Group[Modes], interface: str, since: st
             unit="displacement",
         ),
         loose=Field("1 for blocks that joints do not hold", "block", unverified="modes"),
+        slack=Field("ties that carry nothing at rest and hold no mode"),
         residual=Field("greatest force that a mode leaves without balance, over its inertia"),
         verified=Field("1 where modes, and the state at rest, are verified"),
     )

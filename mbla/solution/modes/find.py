@@ -55,6 +55,7 @@ def modes_at(assembly: Assembly, rest: Rest, count: int) -> Modes:
         pressed=parts.pressed,
         settlement=motions_of_blocks(rest.bodies, rest.settlement),
         loose=_moves(assembly.model.blocks, _on_blocks(rest, parts, pairs.loose)),
+        slack=parts.slack,
         reason="" if len(shapes) else FREE,
     )
 

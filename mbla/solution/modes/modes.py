@@ -24,6 +24,7 @@ class Modes:
     pressed    : (n_interfaces,) share of the interface that presses at rest
     settlement : (n_blocks, 6) m, rad, by which the joints give under the dead load
     loose      : (n_blocks,) blocks that joints do not hold: they move at no frequency, which is no mode
+    slack      : ties that carry nothing at rest and hold no mode
     reason     : why there are none; empty where there are
     residual   : by code that did not find them: greatest ‖K φ − ω² M φ‖ over ‖ω² M φ‖; nan before that
     verified   : whether modes, and the state they belong to, are what they are said to be
@@ -38,6 +39,7 @@ class Modes:
     pressed: FloatArray = field(default_factory=lambda: np.zeros(0))
     settlement: FloatArray = field(default_factory=lambda: np.zeros((0, 6)))
     loose: BoolArray = field(default_factory=lambda: np.zeros(0, dtype=np.bool_))
+    slack: int = 0
     reason: str = ""
     residual: float = math.nan
     verified: bool = False

@@ -39,12 +39,14 @@ class Vibrating:
     masses    : (6 n_free, 6 n_free) force per acceleration
     ways      : (6 n_free, n) motions that guides allow; the identity where no body is guided
     pressed   : (n_surfaces,) share of each interface that presses
+    slack     : ties that carry nothing, which are left out
     """
 
     stiffness: sp.csr_array
     masses: sp.csr_array
     ways: sp.csr_array
     pressed: FloatArray
+    slack: int
 
 
 def vibrating(assembly: Assembly, rest: Rest) -> Vibrating:
@@ -54,11 +56,12 @@ def vibrating(assembly: Assembly, rest: Rest) -> Vibrating:
     n = bodies.contacts.n_surfaces
     relative = np.einsum("nij,nj->ni", frames, _ends(bodies, rest.settlement))
     surfaces = pressed_surfaces(rest, relative)
-    stiffness = _of_surfaces(bodies, frames, _blocks(rest, surfaces)) + _of_ties(rest)
+    ties, slack = _of_ties(rest)
+    stiffness = _of_surfaces(bodies, frames, _blocks(rest, surfaces)) + ties
     inertia = inertia_of(assembly.model.blocks).joined(bodies.label, bodies.arms).matrices[bodies.model.free]
     masses = sp.csr_array(sp.block_diag(inertia)) * bodies.model.units.force_per_mass_acceleration
     share = surfaces.areas / np.maximum(bodies.contacts.areas[:n], 1e-300)
-    return Vibrating(sp.csr_array(stiffness), sp.csr_array(masses), allowed_ways(bodies.model), share)
+    return Vibrating(sp.csr_array(stiffness), sp.csr_array(masses), allowed_ways(bodies.model), share, slack)
 
 
 def allowed_ways(model: Model) -> sp.csr_array:
@@ -164,16 +167,16 @@ def _places(body: IntArray, shape: tuple[int, ...], axis: int) -> IntArray:
     return np.asarray(np.broadcast_to(6 * body[:, None, None] + offsets, shape).ravel())
 
 
-def _of_ties(rest: Rest) -> sp.csr_array:
-    """K of the ties that are not slack, (6 n_free, 6 n_free)."""
+def _of_ties(rest: Rest) -> tuple[sp.csr_array, int]:
+    """K of the ties that are not slack, (6 n_free, 6 n_free), and how many are slack."""
     model, contacts = rest.bodies.model, rest.bodies.contacts
     size = 6 * len(model.free)
     if contacts.ties is None:
-        return sp.csr_array((size, size))
+        return sp.csr_array((size, size)), 0
     points = np.flatnonzero(contacts.tie_points)
     ways = sp.csr_array(equilibrium_matrix(model, contacts, model.free)[:, 3 * points])
     stiffness = rest.points[points, 0]
     force = -stiffness * (ways.T @ rest.settlement[model.free].ravel()) + contacts.ties.tension
     loads = np.linalg.norm(rest.case.dead_load[model.free, :3], axis=1)
     holds = force > TOUCHES * float(loads[loads > 0.0].mean())
-    return sp.csr_array(ways @ sp.diags_array(np.where(holds, stiffness, 0.0)) @ ways.T)
+    return sp.csr_array(ways @ sp.diags_array(np.where(holds, stiffness, 0.0)) @ ways.T), int((~holds).sum())

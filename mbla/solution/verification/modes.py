@@ -98,6 +98,8 @@ def _wrong_at_rest(there: StructureAt, rest: AtRest, modes: Modes) -> Iterator[s
     wrong = np.any(whole & (least[:n] < -OPEN)) or np.any(none & (most[:n] > OPEN))
     if wrong or not all(within_kern(rest, row) for row in np.flatnonzero(whole & ~rest.turned).tolist()):
         yield "interfaces are said to press that are open, or to be open where they press"
+    if modes.slack != int(contacts.tie_points.sum()) - len(_that_hold(rest)):
+        yield "ties are said to hold that are slack, or to be slack where they hold"
 
 
 # --- Stiffness ------------------------------------------------------------------------------------------------------
@@ -134,11 +136,15 @@ def _motions(arms: FloatArray) -> FloatArray:
     return found
 
 
+def _that_hold(rest: AtRest) -> IntArray:
+    """Points of ties that are not slack."""
+    mean = rest.loads[~rest.model.fixed].mean()
+    return np.flatnonzero(rest.contacts.tie_points & (rest.pressed > PRESSED * mean))
+
+
 def _of_ties(rest: AtRest) -> sp.csr_array:
     """What ties that are not slack add to it."""
-    contacts, n = rest.contacts, len(rest.model.blocks)
-    mean = rest.loads[~rest.model.fixed].mean()
-    holds = np.flatnonzero(contacts.tie_points & (rest.pressed > PRESSED * mean))
+    contacts, n, holds = rest.contacts, len(rest.model.blocks), _that_hold(rest)
     pulls = np.zeros((6 * n, len(holds)))
     for column, point in enumerate(holds.tolist()):
         force = np.zeros((len(contacts.points), 3))

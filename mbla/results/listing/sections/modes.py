@@ -12,8 +12,8 @@ from mbla.results.results import CaseResult
 from mbla.solution.modes.modes import Modes
 
 AT_POINTS = (
-    "Their joints bend by their whole surface. In the time history joints are springs at contact points, which bend "
-    "less: its own first period, given with it, is shorter."
+    "Their joints bend by their whole surface, or by the part that presses. In the time history joints are springs at "
+    "contact points: its own first period is another one."
 )
 """of modes beside a time history"""
 
@@ -129,9 +129,19 @@ def _stiffness(assembly: Assembly, modes: Modes) -> str:
     given = all(not np.isnan(assembly.model.joints[name].normal_stiffness) for name in names)
     source = "" if given else ", next to rigid where the deck gives none: give theirs for periods as they are"
     pressed = float(modes.pressed @ assembly.contacts.areas / assembly.contacts.areas.sum())
+    slack = "" if not modes.slack else f" {_slack_words(modes.slack)}"
     return (
         f"Joints have a stiffness of {stiff} {units.force}/{units.length}3{source}; at rest blocks sag by up to "
-        f"{number(modes.sag)} {units.length}, and {100.0 * pressed:.3g} % of the area of joints presses."
+        f"{number(modes.sag)} {units.length}, and {100.0 * pressed:.3g} % of the area of joints presses.{slack}"
+    )
+
+
+def _slack_words(slack: int) -> str:
+    """Of ties that are left out."""
+    if slack == 1:
+        return "1 tie carries nothing at rest and is left out; in a time history it holds as soon as it is pulled."
+    return (
+        f"{slack} ties carry nothing at rest and are left out; in a time history they hold as soon as they are pulled."
     )
 
 
