@@ -23,7 +23,6 @@ class HistoryFigures:
     """Of a structure that was followed in time, from rest.
 
     peak, peak_time, peak_block : greatest displacement of the centre of a block relative to the base, m, when, which
-    wander : by how much that still varied, m
     residual, residual_uncertainty, residual_block : greatest displacement at the end, m, and its uncertainty
     falls, fall_time, fallen : first block that has fallen by half of its height, -1 for none, when, and how many have
     opening, opening_interface, slip, slip_interface : greatest of all interfaces, m, and of which; -1 without any
@@ -39,7 +38,6 @@ class HistoryFigures:
     peak_block: int
     residual: float
     residual_uncertainty: float
-    wander: float
     residual_block: int
     falls: int
     fall_time: float
@@ -79,7 +77,6 @@ def history_figures(found: TimeHistoryResult) -> HistoryFigures | None:
         peak_block=most,
         residual=float(peaks.residuals[stays]),
         residual_uncertainty=_uncertainty(found, stays),
-        wander=float(peaks.wanders[stays]),
         residual_block=stays,
         falls=falls,
         fall_time=float(peaks.falling[falls]) if falls >= 0 else math.nan,

@@ -18,8 +18,10 @@ NOTABLE = 1e-3
 """of the size of the block that moves most: openings and slips below it are not seen, as those of elastic joints"""
 BOTH = 1.0 / 3.0
 """of the greater of opening and slip, from which the lesser is said as well"""
-MOVING = 0.01
-"""of the peak, by which the displacement at the end still varies where that is said"""
+UNSURE = 0.01
+"""of the peak, above which the uncertainty of what stays is said"""
+CUT_SHORT = HistoryEnd.LATE, HistoryEnd.STOPPED
+"""ends at which nothing is known of what stays"""
 COMES_BACK = 0.5
 """of the peak, up to which what stays is said as what it comes back to"""
 AT_REST = "the state at rest is not confirmed, and was not followed"
@@ -64,8 +66,11 @@ def motion_words(model: Model, figures: HistoryFigures, damage: HistoryDamage, e
     words = f"{_manner(model, figures, damage)}, peak {peak}"
     if end is HistoryEnd.DISPLACED:
         return f"{words}, where it ends as asked; no block has fallen"
-    if moves or figures.wander > MOVING * figures.peak:
-        varies = f"{figures.residual:.2g} {model.units.length} (+- {figures.wander:.1g})"
+    there = f"{figures.residual:.2g} {model.units.length}"
+    if end in CUT_SHORT:
+        return f"{words}, {there} when it was cut short; no block has fallen"
+    if moves:
+        varies = f"{there} (+- {figures.residual_uncertainty:.1g})"
         return f"{words}, still moves at the end, about {varies}; no block has fallen"
     return f"{words}, {_rest_words(model, figures)}; no block falls"
 
@@ -80,10 +85,12 @@ def peak_words(model: Model, figures: HistoryFigures) -> str:
 
 
 def _rest_words(model: Model, figures: HistoryFigures) -> str:
-    length, rest = model.units.length, figures.residual
-    if rest <= COMES_BACK * figures.peak:
-        return f"comes back to {rest:.2g} {length}"
-    return f"{rest:.2g} {length} of displacement stay"
+    rest = f"{figures.residual:.2g} {model.units.length}"
+    unsure = figures.residual_uncertainty
+    varies = f" (+- {unsure:.1g})" if unsure > UNSURE * figures.peak else ""
+    if figures.residual <= COMES_BACK * figures.peak:
+        return f"comes back to {rest}{varies}"
+    return f"{rest}{varies} of displacement stay"
 
 
 def _broken_words(model: Model, damage: HistoryDamage) -> str:

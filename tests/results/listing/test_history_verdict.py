@@ -30,8 +30,9 @@ def test_a_tower_that_rocks() -> None:
 
 def test_slides_and_what_stays() -> None:
     slid = replace(peaks(), openings=np.zeros(2), slips=np.array([0.07, 0.0]), residuals=np.array([0.0, 0.07, 0.0]))
-    assert told(peaks=slid).startswith("slides, peak 0.0713 m")
-    assert "0.07 m of displacement stay; no block falls" in told(peaks=slid)
+    half = HalfStep(0.0713, 0.4, 0.07, HistoryEnd.DURATION)
+    assert told(peaks=slid, half=half).startswith("slides, peak 0.0713 m")
+    assert "0.07 m of displacement stay; no block falls" in told(peaks=slid, half=half)
     assert told(peaks=replace(slid, openings=np.array([0.05, 0.0]))).startswith("rocks and slides, ")
 
 
@@ -58,6 +59,11 @@ def test_falls() -> None:
 def test_still_moves_at_the_end() -> None:
     moving = replace(peaks(), residuals=np.array([0.0, 0.01, 0.0]), wanders=np.array([0.0, 0.02, 0.0]))
     assert "still moves at the end, about 0.01 m (+- 0.02); no block has fallen" in told(peaks=moving)
+
+
+def test_what_has_come_to_rest_does_not_still_move_however_unsure_what_stays_is() -> None:
+    unsure = replace(peaks(), wanders=np.array([0.0, 0.002, 0.0]))
+    assert "comes back to 0.001 m (+- 0.002); no block falls" in told(peaks=unsure)
 
 
 def test_moves_on_slowly_beyond_its_unstable_equilibrium() -> None:
