@@ -184,19 +184,19 @@ def motion_words(shaking: Shaking) -> str:
 
 @MOTION.key(unit="acceleration")
 def peak_acceleration(shaking: Shaking) -> float:
-    """Greatest acceleration."""
+    """Greatest acceleration, of the whole motion though less of it be followed."""
     return shaking.motion.peak_acceleration
 
 
 @MOTION.key(unit="speed")
 def peak_velocity(shaking: Shaking) -> float:
-    """Greatest velocity."""
+    """Greatest velocity, likewise."""
     return shaking.motion.peak_velocity
 
 
 @MOTION.key(unit="length")
 def peak_displacement(shaking: Shaking) -> float:
-    """Greatest displacement."""
+    """Greatest displacement up to its end, likewise; after a pulse that leaves a velocity the base goes on."""
     return shaking.motion.peak_displacement
 
 

@@ -32,7 +32,9 @@ ACCELERATIONS = "Accelerations at an impact depend on the step and on how stiff 
 SEEN = 1e-6
 """of the greatest spectral acceleration, from which another is told"""
 ROUNDING = 1e-9
-"""of the largest energy, up to which one is zero"""
+"""of the largest energy, up to which one is zero; of times, up to which they are the same"""
+GOES_ON = 0.01
+"""of the peak velocity of the base after its motion, from which it is told"""
 
 
 def history_sections(assembly: Assembly, case: CaseResult) -> dict[str, list[Block]]:
@@ -59,16 +61,24 @@ def history_sections(assembly: Assembly, case: CaseResult) -> dict[str, list[Blo
 
 def _base(model: Model, asked: TimeHistory) -> list[Fact]:
     """What moves the structure."""
-    rows = [Fact("base moves by", motion.words, (_peaks_of(model, motion),)) for motion in asked.motions]
+    rows = [Fact("base moves by", motion.words, (_peaks_of(model, asked, motion),)) for motion in asked.motions]
     rows += [Fact("force", force.words) for force in asked.forces]
     return rows or [Fact("base moves by", "nothing: it is let go")]
 
 
-def _peaks_of(model: Model, motion: BaseMotion) -> str:
+def _peaks_of(model: Model, asked: TimeHistory, motion: BaseMotion) -> str:
+    """Of the whole motion, whether less of it is followed, and how fast the base goes on after it."""
     length, gravity = model.units.length, model.units.standard_gravity
+    end = float(motion.signal.times[-1])
+    left = abs(float(motion.signal.integral(end)))
+    then = ""
+    if asked.duration < end * (1.0 - ROUNDING):
+        then = f": of all of it, which is cut at {asked.duration:.4g} s"
+    elif asked.duration > end * (1.0 + ROUNDING) and left > GOES_ON * motion.peak_velocity:
+        then = f"; after it the base goes on at {left:.3g} {length}/s"
     return (
         f"at most {motion.peak_acceleration / gravity:.3g} g, {motion.peak_velocity:.3g} {length}/s, "
-        f"{motion.peak_displacement:.3g} {length}"
+        f"{motion.peak_displacement:.3g} {length}{then}"
     )
 
 

@@ -5,9 +5,13 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Any
 
+import numpy as np
+
+from mbla.model.motion.signal import Signal
 from mbla.results.listing.listing import case_section
 from mbla.results.listing.summary import summary_lines
 from mbla.results.listing.text import lines_of
+from mbla.results.results import CaseResult
 from mbla.solution.solution import Status
 from tests.results.rocking import rocking_case
 from tests.results.synthetic import tower_results
@@ -56,3 +60,18 @@ def test_the_summary_has_the_peak_in_its_table() -> None:
     words = words_of(summary_lines(replace(RESULTS, cases=(case,))))
     assert "load case status peak displacement [m] shaken solved 0.071264" in words
     assert "shaken: rocks, peak 0.0713 m at 0.4 s (tower[0])" in words
+
+
+def test_a_motion_that_is_cut_and_a_base_that_goes_on_after_it() -> None:
+    case = rocking_case(RESULTS.cases[0])
+    asked = case.load_case.time_history
+    assert asked is not None
+    short = replace(case, load_case=replace(case.load_case, time_history=replace(asked, duration=1.0)))
+    assert "0.628 m: of all of it, which is cut at 1 s" in section_words(short)
+    pulse = replace(asked.motions[0], signal=Signal(np.array([0.0, 0.5]), np.array([2.0, 2.0])))
+    goes_on = replace(case, load_case=replace(case.load_case, time_history=replace(asked, motions=(pulse,))))
+    assert "1 m/s, 0.25 m; after it the base goes on at 1 m/s" in section_words(goes_on)
+
+
+def section_words(case: CaseResult) -> str:
+    return words_of(lines_of(case_section(RESULTS.assembly, case).blocks))
