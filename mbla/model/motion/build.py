@@ -137,10 +137,12 @@ def _record(motion: MotionSection, path: KeyPath, site: LoadSite) -> Iterator[Ba
         direction = unit(vector_of(along))
         signal = corrected.times_factor(motion.scale).later(motion.start)
         words = motion.file + (f", column {motion.columns[column - count]}" if motion.columns and count > 1 else "")
-        words += f" x {motion.scale:g}" * (motion.scale != 1.0)
+        words += f", times {motion.scale:g}" * (motion.scale != 1.0)
         words += f", baseline {motion.baseline}" * (motion.baseline != "none")
         words += f", along {vector(direction)}, peak {_in_g(signal.peak, site)}"
-        remark_on_motion(words, raw.peak, site, raw, corrected)
+        scaled = raw.times_factor(motion.scale)
+        after = scaled if corrected is raw else corrected.times_factor(motion.scale)
+        remark_on_motion(words, raw.peak, site, scaled, after)
         yield BaseMotion(words + _from(motion.start), signal, direction, motion.file)
 
 

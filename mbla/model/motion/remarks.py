@@ -70,7 +70,7 @@ def remark_on_motion(
 ) -> None:
     """A peak that no base has, before its scale, and a baseline that carries the base away, or takes much to correct.
 
-    raw, corrected : of a record, the same where its baseline is not corrected
+    raw, corrected : of a record with its scale, the same where its baseline is not corrected
     """
     in_g = peak / site.units.standard_gravity
     if not WEAKEST <= in_g <= STRONGEST:
