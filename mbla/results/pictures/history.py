@@ -14,6 +14,7 @@ from mbla.results.pictures.diagrams import dress, open_diagrams
 from mbla.results.pictures.options import PictureOptions
 from mbla.results.pictures.page import BLUE, GHOST, GREEN, INK, ORANGE, PURPLE, VERMILION, WARNING, Page
 from mbla.results.pictures.scene import PictureScene
+from mbla.results.results import CaseResult
 from mbla.solution.thresholds import SOLVED_RESIDUAL
 
 LINES = (
@@ -125,10 +126,16 @@ def _draw_path(page: Page, axes: Any, scene: PictureScene) -> None:
     axes.legend(handles=handles, fontsize=page.small, frameon=False, loc="lower right")
 
 
+def _no_curve(case: CaseResult) -> str:
+    """Why there is no capacity curve."""
+    has = "no pushover" if case.load_case.has_load_factor else "modes of vibration alone"
+    return f"no curve to draw: the load case has {has}"
+
+
 def draw_curve(path: Path, scene: PictureScene, options: PictureOptions) -> None:
     """Write the capacity curve of a pushover, load factor over displacement; raises as ``open_diagrams`` does."""
     curve, words = scene.case.solution.further.pushover.curve, scene.words_of("curve")[:2]
-    words.append(curve_words(scene.model, scene.case) or "no curve to draw: the load case has no pushover")
+    words.append(curve_words(scene.model, scene.case) or _no_curve(scene.case))
     sure = np.array([not row.step or row.residual <= SOLVED_RESIDUAL for row in curve])  # the first is the case's own
     mark = "" if sure.all() else f"NOT VERIFIED: {int((~sure).sum())} of {len(sure)} steps, hollow"
     with open_diagrams(path, options, words, mark) as sheet:

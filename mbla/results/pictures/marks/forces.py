@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from mbla.arrays import IntArray
+from mbla.questions.in_time import InTime
 from mbla.results.collapse.interface_modes import within_soil
 from mbla.results.collapse.thrust import OUTSIDE
 from mbla.results.listing.text import number
@@ -77,6 +78,8 @@ def thrust_lines(scene: PictureScene, texts: Sequence[str]) -> list[Mark]:
     question, other = scene.case.load_case.question, scene.other_end
     if question.collapses:
         return [thrust_line(scene, texts, "line of thrust", THRUST)]
+    if isinstance(question, InTime):
+        return [thrust_line(scene, texts, "line of thrust, dead load", THRUST)]
     found = [thrust_line(scene, texts, f"line of thrust, {question.what}", THRUST)]
     if other is not None and other.thrust is not None:
         name = f"line of thrust, {other.case.load_case.question.what}"
