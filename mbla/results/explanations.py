@@ -168,7 +168,7 @@ def explanation_json(entry: Explanation) -> dict[str, Any]:
 def _in_full(entry: Explanation) -> list[str]:
     lines = [f"{entry.identifier}   ({entry.kind})", *sentence(entry.title)]
     parts = (
-        ("For the load factor", entry.meaning),
+        ("What it means", entry.meaning),
         ("What brings it about", entry.cause),
         ("What to do", entry.remedy),
         ("Example", entry.example),
