@@ -19,6 +19,7 @@ from mbla.results.outcome import answer_bounds, answer_of, associative_of, figur
 from mbla.results.results import CaseResult
 from mbla.results.series import Series
 from mbla.solution.solution import Status
+from mbla.solution.time_history.step_rows import HistoryEnd
 
 
 def answer_facts(model: Model, case: CaseResult) -> list[Fact]:
@@ -45,6 +46,12 @@ def status_name(status: Status) -> str:
 def status_words(status: Status) -> str:
     """``solved``; everything else stands out, ``NOT VERIFIED``."""
     return status_name(status) if status is Status.SOLVED else status_name(status).upper()
+
+
+def case_status_words(case: CaseResult) -> str:
+    """The same of a case; ``STOPPED`` of a structure in time that the user has stopped."""
+    stopped = case.solution.further.time_history.end is HistoryEnd.STOPPED and case.status is Status.TIME_LIMIT
+    return "STOPPED" if stopped else status_words(case.status)
 
 
 def proved_bounds(case: CaseResult) -> tuple[float, float]:

@@ -9,7 +9,13 @@ from mbla.errors import Notice
 from mbla.model.model import Model
 from mbla.results.demand.cracking import cracking_notices
 from mbla.results.force_range import force_ranges_of
-from mbla.results.listing.answers import answer_columns, range_words, spread_over_positions, status_words, worst_words
+from mbla.results.listing.answers import (
+    answer_columns,
+    case_status_words,
+    range_words,
+    spread_over_positions,
+    worst_words,
+)
 from mbla.results.listing.blocks import Block, Paragraph, paragraphs, table_of
 from mbla.results.listing.places import counted_blocks
 from mbla.results.listing.sections.assessment_words import assessment_words, code_verdict
@@ -98,7 +104,7 @@ def _table(model: Model, cases: Sequence[CaseResult]) -> list[Block]:
     if all(case.solution.flow_rule == "associative" or not case.load_case.has_load_factor for case in cases):
         heads.pop()
     rows = [
-        [case.load_case.name, status_words(case.status), *row[: len(heads)]]
+        [case.load_case.name, case_status_words(case), *row[: len(heads)]]
         for case, row in zip(cases, rows, strict=True)
     ]
     return table_of(["load case", "status", *heads], rows, left=2)

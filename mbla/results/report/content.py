@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from mbla.errors import Notice
 from mbla.results.explanations import Explanation, explanations
-from mbla.results.listing.answers import answer_columns, bound_figures, status_words
+from mbla.results.listing.answers import answer_columns, bound_figures, case_status_words
 from mbla.results.listing.blocks import Block, ListingSection
 from mbla.results.listing.listing import case_sections
 from mbla.results.outcome import answer_of, case_notices, result_of
@@ -78,7 +78,7 @@ def case_content(results: Results, case: CaseResult, number: int, figures: Repor
     return CaseContent(
         id=key,
         name=case.load_case.name,
-        status=status_words(case.status),
+        status=case_status_words(case),
         tone=tone_of(case),
         alarm=alarm_of(case),
         words=first.blocks,
@@ -151,5 +151,5 @@ def verdict_table(results: Results) -> tuple[list[str], list[VerdictRow]]:
     rows = []
     for place, (case, own) in enumerate(zip(results.cases, figures, strict=True), start=1):
         values = (*own, *(bound_figures(case) if bounded else ()))
-        rows.append(VerdictRow(f"case-{place}", case.load_case.name, status_words(case.status), tone_of(case), values))
+        rows.append(VerdictRow(f"case-{place}", case.load_case.name, case_status_words(case), tone_of(case), values))
     return [*heads, *(("static bound", "kinematic bound") if bounded else ())], rows

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from mbla.results.listing.answers import case_status_words
 from mbla.results.listing.history_verdict import history_verdict
 from mbla.solution.solution import Status
 from mbla.solution.time_history.history import HalfStep
@@ -89,3 +90,8 @@ def test_a_peak_that_depends_on_the_step_is_given_with_that_of_half() -> None:
 def test_ends(end: HistoryEnd, words: str) -> None:
     half = replace(rocks().half or HalfStep(0.0, 0.0, 0.0, end), end=end)
     assert told(end=end, half=half).startswith(words)
+
+
+def test_a_run_that_was_stopped_has_that_as_its_status() -> None:
+    stopped, late = (rocking_case(RESULTS.cases[0], end=end) for end in (HistoryEnd.STOPPED, HistoryEnd.LATE))
+    assert (case_status_words(stopped), case_status_words(late)) == ("STOPPED", "TIME LIMIT")

@@ -10,7 +10,7 @@ from mbla.model.model import LoadCase, Model
 from mbla.model.motion.time_history import BaseMotion, TimeHistory
 from mbla.results.history_damage import HistoryDamage, history_damage
 from mbla.results.history_figures import HistoryFigures, drift_of, history_figures
-from mbla.results.listing.answers import status_name
+from mbla.results.listing.answers import case_status_words, status_name
 from mbla.results.listing.blocks import MOST_ROWS, Block, Fact, apart, facts, paragraphs, table_of
 from mbla.results.listing.history_verdict import peak_words
 from mbla.results.listing.text import counted, full_sentence, number, small
@@ -47,7 +47,7 @@ def history_sections(assembly: Assembly, case: CaseResult) -> dict[str, list[Blo
         return {"Time history": facts([Fact("status", status_name(case.status)), *_base(model, asked)])}
     return {
         "Time history": [
-            *facts([Fact("status", status_name(case.status)), *_base(model, asked)]),
+            *facts([Fact("status", case_status_words(case).lower()), *_base(model, asked)]),
             *facts([*_figures(assembly, case, figures), *_damage(model, history_damage(model, found))]),
             *apart(_points(model, asked, found.histories)),
             *apart(_spectra(model, asked, found.spectra)),
@@ -179,16 +179,19 @@ def _joints(assembly: Assembly, case: LoadCase, found: TimeHistoryResult) -> lis
     contacts, peaks = assembly.contacts, found.peaks
     if peaks is None or not len(contacts):
         return []
-    length, rows = assembly.model.units.length, []
+    length, opened, slipped = assembly.model.units.length, list[list[str]](), list[list[str]]()
     for law, name in enumerate(contacts.joint_names):
         own = np.flatnonzero(contacts.joints == law)
         if not len(own):
             continue
         opens, slips = (int(own[values[own].argmax()]) for values in (peaks.openings, peaks.slips))
-        cells = [f"{peaks.openings[opens]:.3g}", _pair(assembly, opens), f"{peaks.slips[slips]:.3g}"]
-        rows.append([name, str(len(own)), *cells, _pair(assembly, slips)])
-    head = ["joint law", "interfaces", f"opening [{length}]", "between", f"slip [{length}]", "between"]
-    return table_of(head, rows[:MOST_ROWS], caption="Greatest opening and slip by joint law", total=len(rows))
+        opened.append([name, str(len(own)), f"{peaks.openings[opens]:.3g}", _pair(assembly, opens)])
+        slipped.append([name, str(len(own)), f"{peaks.slips[slips]:.3g}", _pair(assembly, slips)])
+    tables = []
+    for what, rows in (("opening", opened), ("slip", slipped)):
+        head = ["joint law", "interfaces", f"{what} [{length}]", "between"]
+        tables += table_of(head, rows[:MOST_ROWS], caption=f"Greatest {what} by joint law", total=len(rows))
+    return tables
 
 
 def _energies(model: Model, found: TimeHistoryResult, figures: HistoryFigures) -> list[Block]:
@@ -238,7 +241,8 @@ def _steps(model: Model, asked: TimeHistory, found: TimeHistoryResult, figures: 
         rows += [Fact("first period", f"{found.period:.4g} s"), Fact("damping at it", damping)]
     half = found.half
     if half is None:
-        rows.append(Fact("with half of the step", "not followed: check: true does it, and says how far figures differ"))
+        why = "the run ended before it" if asked.check else "check: true does it, and says how far figures differ"
+        rows.append(Fact("with half of the step", f"not followed: {why}"))
     else:
         says = f"peak {half.peak:.3g} {units.length} at {half.time:.4g} s ({100.0 * figures.half_step:.2g} % off), "
         says += f"residual {half.residual:.2g} {units.length}"
