@@ -109,7 +109,7 @@ def _without_interface(assembly: Assembly, history: TimeHistory, path: KeyPath) 
     for name, found in pairs.items():
         place: KeyPath = (*path, "record", "interfaces", name, "between")
         first, second = (model.body_name(body) for body in found[0])
-        if joints.isdisjoint(found):
+        if joints.isdisjoint(tuple(sorted(pair)) for pair in found):
             words = f"no joint lies between {first} and {second}: see what `mbla check` says touches"
             yield place, Message("recorded-interface-missing", words)
         elif any(np.isin(pair, blocks).all() for pair in found for blocks in history.rigid):

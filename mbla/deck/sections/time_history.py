@@ -51,7 +51,8 @@ class RecordSection(Section):
         default_factory=dict, description="points by name: displacement, velocity, acceleration at every step"
     )
     interfaces: dict[Name, RecordedInterfaceSection] = Field(
-        default_factory=dict, description="interfaces by name: opening, slip, normal and shear force at every step"
+        default_factory=dict,
+        description="interfaces by name: opening, slip, and the force on the second body at every step",
     )
 
 

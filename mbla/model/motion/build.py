@@ -251,7 +251,7 @@ def _interfaces(section: TimeHistorySection, path: KeyPath, site: LoadSite) -> I
             continue
         pairs = [(first, second) for first in sides[0] for second in sides[1]]
         for number, pair in enumerate(pairs):
-            yield RecordedInterface(f"{name}[{number}]" if len(pairs) > 1 else name, np.array(sorted(pair)))
+            yield RecordedInterface(f"{name}[{number}]" if len(pairs) > 1 else name, np.array(pair))
 
 
 def _bodies(selector: Selector, path: KeyPath, site: LoadSite) -> list[int] | None:

@@ -75,7 +75,7 @@ class RecordedPoint:
 class RecordedInterface:
     """What is kept of all interfaces between two bodies.
 
-    bodies : (2,) of the model, a and b: blocks, then grounds
+    bodies : (2,) of the model, as the deck names them: blocks, then grounds; forces are those on the second
     """
 
     name: str

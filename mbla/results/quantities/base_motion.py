@@ -96,7 +96,7 @@ def interface_names(asked: TimeHistory) -> list[str]:
 
 @ASKED.quantity(dims="recorded_interface pair", rule="index of body")
 def interface_bodies(asked: TimeHistory) -> IntArray:
-    """The two bodies."""
+    """The two bodies, as the deck names them."""
     return np.array([interface.bodies for interface in asked.interfaces], dtype=np.int64).reshape(-1, 2)
 
 

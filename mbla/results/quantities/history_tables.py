@@ -63,9 +63,15 @@ def displacement(of: PointHistories) -> FloatArray:
     return of.relative(of.found.displacements)
 
 
+@POINTS_IN_TIME.quantity(dims="row", unit="time")
+def velocity_time(of: PointHistories) -> FloatArray:
+    """Of the velocity: the middle of the last step."""
+    return np.repeat(of.found.velocity_times, len(of.names) + 1)
+
+
 @POINTS_IN_TIME.quantity(dims="row axis", unit="speed")
 def velocity(of: PointHistories) -> FloatArray:
-    """Relative to the base."""
+    """Relative to the base, in the middle of the last step."""
     return of.relative(of.found.velocities)
 
 
@@ -77,7 +83,7 @@ def absolute_displacement(of: PointHistories) -> FloatArray:
 
 @POINTS_IN_TIME.quantity(dims="row axis", unit="acceleration")
 def absolute_acceleration(of: PointHistories) -> FloatArray:
-    """With that of the base."""
+    """With that of the base; of points the mean since the middle of the step before the last, small ones as well."""
     return of.absolute(of.found.accelerations, 2)
 
 
@@ -131,5 +137,5 @@ def slip(of: InterfaceHistories) -> FloatArray:
 
 @INTERFACES_IN_TIME.quantity(dims="row axis", unit="force")
 def force(of: InterfaceHistories) -> FloatArray:
-    """On its second body, the sum over its points."""
+    """On its second body as the deck names them, the sum over its points."""
     return of.found.forces.reshape(-1, 3)

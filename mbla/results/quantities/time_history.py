@@ -200,7 +200,7 @@ HISTORIES.fields(
     ),
     slips=Field("greatest slip of each", "instant recorded_interface", unit="length"),
     interface_forces=Field(
-        "force on the second body of each, the sum over its points",
+        "force on the second body of each, as the deck names them, the sum over its points",
         "instant recorded_interface axis",
         unit="force",
         attribute="forces",

@@ -25,7 +25,7 @@ class RecordedHistories:
                     0 at the first instant
     base          : (m, 3, 3) displacement, velocity and acceleration of the base
     openings, slips : (m, n_interfaces) m, the largest between corners of the two bodies that touched as built
-    forces        : (m, n_interfaces, 3) sum of the forces on body b at the points of both bodies, along x, y, z
+    forces        : (m, n_interfaces, 3) sum of the forces on the second body as the deck names them, along x, y, z
     """
 
     times: FloatArray

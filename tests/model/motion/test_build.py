@@ -190,17 +190,17 @@ def test_recorded_points_and_interfaces(tmp_path: Path) -> None:
         ("top", 2, [0.0, 0.0, 4.0]),
         ("foot", 0, [0.5, 0.5, 0.5]),
     ]
-    assert [(each.name, each.bodies.tolist()) for each in found.interfaces] == [("bed", [1, 2])]
+    assert [(each.name, each.bodies.tolist()) for each in found.interfaces] == [("bed", [2, 1])]
 
 
 def test_ground_as_a_side_of_an_interface(tmp_path: Path) -> None:
     asked = f"motion: {SINE}, record: {{interfaces: {{foot: {{between: [ground, base]}}}}}}"
     found = history_of(model(tmp_path, asked, supports="[{ground: {z: 0}}]"))
-    assert [(each.name, each.bodies.tolist()) for each in found.interfaces] == [("foot", [0, 3])]
+    assert [(each.name, each.bodies.tolist()) for each in found.interfaces] == [("foot", [3, 0])]
     several = model(tmp_path, asked, supports="[{ground: {z: 0}}, {ground: {x: 0}}]")
     assert [(each.name, each.bodies.tolist()) for each in history_of(several).interfaces] == [
-        ("foot[0]", [0, 3]),
-        ("foot[1]", [0, 4]),
+        ("foot[0]", [3, 0]),
+        ("foot[1]", [4, 0]),
     ]
 
 

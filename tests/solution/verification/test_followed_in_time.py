@@ -96,6 +96,21 @@ def test_every_step_of_two_blocks(every_step: Followed) -> None:
     assert every_step[2].peaks.peak > 0.005
 
 
+def test_forces_are_those_on_the_second_body_as_the_deck_names_them() -> None:
+    """The foot carries both blocks: the ground is pressed down by them, and holds them up."""
+    of_ground, of_base = (
+        followed(TWO.replace("[ground, base]", order), "parameters.d=0.02")
+        for order in ("[base, ground]", "[ground, base]")
+    )
+    assert failures(of_ground) == failures(of_base) == []
+    (down, up) = (each[2].histories for each in (of_ground, of_base))
+    assert down is not None
+    assert up is not None
+    assert up.forces[0, 1, 2] == pytest.approx(2000 * 9.81 * (0.125 + 0.07), rel=0.01)
+    assert np.array_equal(down.forces[:, 1], -up.forces[:, 1])
+    assert np.array_equal(down.forces[:, 0], up.forces[:, 0])
+
+
 @pytest.mark.parametrize("joint", [
     "friction: 0.6, cohesion: 2000, tensile_strength: 1000",
     "friction: 0.6, compressive_strength: 30000",
