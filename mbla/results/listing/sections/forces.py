@@ -72,7 +72,7 @@ def soil_blocks(model: Model, contacts: Contacts, case: CaseResult) -> list[Bloc
 
 AT_REST = (
     "At rest: forces that arise under the dead load alone in the assembly without stress, of elastic joints; others "
-    "are possible, and no coefficient of earth pressure at rest is assumed."
+    "are possible, and no coefficient of earth pressure at rest is assumed. They may lie below active earth pressure."
 )
 
 
