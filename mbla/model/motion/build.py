@@ -20,11 +20,10 @@ from mbla.model.motion.columns import read_columns
 from mbla.model.motion.pulses import pulse_of
 from mbla.model.motion.record import Record
 from mbla.model.motion.remarks import (
-    refuse_late_start,
-    remark_on_duration,
+    judge_what_acts,
+    remark_on_history,
     remark_on_motion,
     remark_on_record,
-    remark_on_step,
 )
 from mbla.model.motion.signal import Signal
 from mbla.model.motion.time_history import BaseMotion, ForceHistory, RecordedInterface, RecordedPoint, TimeHistory
@@ -83,8 +82,7 @@ def build_time_history(
         words += f"{MOST_STEPS:,} can be followed; give step or duration"
         site.refuse(Finding("out-of-bounds", words, *path))
         return None
-    remark_on_step(name, section, built, site)
-    remark_on_duration(name, built, site)
+    remark_on_history(name, section, built, site)
     return built
 
 
@@ -100,7 +98,7 @@ def _motions(section: TimeHistorySection, path: KeyPath, site: LoadSite) -> Iter
         place: KeyPath = (*path, "motion", number) if isinstance(section.motion, list) else (*path, "motion")
         built = list(_pulse(motion, site) if motion.pulse is not None else _record(motion, place, site))
         for first in built[:1]:
-            refuse_late_start(motion, first.signal, section, place, site)
+            judge_what_acts(motion, first.signal, section, place, site)
         yield from built
 
 
@@ -140,9 +138,7 @@ def _record(motion: MotionSection, path: KeyPath, site: LoadSite) -> Iterator[Ba
         words += f", times {motion.scale:g}" * (motion.scale != 1.0)
         words += f", baseline {motion.baseline}" * (motion.baseline != "none")
         words += f", along {vector(direction)}, peak {_in_g(signal.peak, site)}"
-        scaled = raw.times_factor(motion.scale)
-        after = scaled if corrected is raw else corrected.times_factor(motion.scale)
-        remark_on_motion(words, raw.peak, site, scaled, after)
+        remark_on_motion(words, raw.peak, site, raw, corrected, motion.scale)
         yield BaseMotion(words + _from(motion.start), signal, direction, motion.file)
 
 
@@ -197,7 +193,7 @@ def _forces(section: TimeHistorySection, path: KeyPath, site: LoadSite) -> Itera
         direction, centroid = unit(vector_of(force.direction)), site.blocks.centroids[block]
         factor = force.scale * site.units.convert(f"1 {force.unit}", "force")
         signal = Signal(record.times, factor * record.values[:, 0]).later(force.start)
-        refuse_late_start(force, signal, section, place, site)
+        judge_what_acts(force, signal, section, place, site)
         words = f"force of {force.file} along {vector(direction)} on {site.blocks.name(block)}"
         words += f", peak {signal.peak:.6g} {site.units.force}" + _from(force.start)
         point = centroid if force.at is None else np.array(force.at)

@@ -49,14 +49,17 @@ def remark_on_record(
             site.warn("motion-unit", f"{words}: unit: {of_header}?")
 
 
-def refuse_late_start(
+def judge_what_acts(
     moves: MotionSection | ForceHistorySection,
     signal: Signal,
     section: TimeHistorySection,
     path: KeyPath,
     site: LoadSite,
 ) -> None:
-    """Leaves a fault where the duration that is asked for ends before a motion, or a force, starts."""
+    """Tells of a motion, or a force, without size; leaves a fault where the duration ends before it starts."""
+    if moves.scale == 0.0:
+        what = f"pulse {moves.pulse}" if isinstance(moves, MotionSection) and moves.pulse else str(moves.file)
+        site.selection.remark(Notice("notice", "motion-scale", f"{what}: its scale is 0, so that nothing of it acts"))
     begin = float(signal.times[0])
     if section.duration is not None and begin >= section.duration:
         words = f"it starts at {begin:g} s, but the time history ends at {section.duration:g} s and nothing of it acts"
@@ -66,11 +69,16 @@ def refuse_late_start(
 
 
 def remark_on_motion(
-    words: str, peak: float, site: LoadSite, raw: Signal | None = None, corrected: Signal | None = None
+    words: str,
+    peak: float,
+    site: LoadSite,
+    raw: Signal | None = None,
+    corrected: Signal | None = None,
+    scale: float = 1.0,
 ) -> None:
     """A peak that no base has, before its scale, and a baseline that carries the base away, or takes much to correct.
 
-    raw, corrected : of a record with its scale, the same where its baseline is not corrected
+    raw, corrected : of a record before its scale, the same where its baseline is not corrected
     """
     in_g = peak / site.units.standard_gravity
     if not WEAKEST <= in_g <= STRONGEST:
@@ -79,9 +87,9 @@ def remark_on_motion(
     if raw is None or corrected is None:
         return
     if corrected is raw:
-        _remark_on_baseline(words, raw, site)
+        _remark_on_baseline(words, raw.times_factor(scale), site)
     else:
-        _remark_on_correction(words, raw, corrected, site)
+        _remark_on_correction(words, raw.times_factor(scale), corrected.times_factor(scale), site)
 
 
 def _remark_on_baseline(words: str, raw: Signal, site: LoadSite) -> None:
@@ -109,7 +117,14 @@ def _remark_on_correction(words: str, raw: Signal, corrected: Signal, site: Load
         site.warn("motion-baseline-large", f"{words}: {says}: if the base is left displaced, baseline: none")
 
 
-def remark_on_step(name: str, section: TimeHistorySection, built: TimeHistory, site: LoadSite) -> None:
+def remark_on_history(name: str, section: TimeHistorySection, built: TimeHistory, site: LoadSite) -> None:
+    """Its step, its duration, and states that are kept."""
+    _remark_on_step(name, section, built, site)
+    _remark_on_duration(name, built, site)
+    _remark_on_states(name, section, built, site)
+
+
+def _remark_on_step(name: str, section: TimeHistorySection, built: TimeHistory, site: LoadSite) -> None:
     """A time step that passes over samples of a record, or is long for a pulse."""
     if section.step is None:
         return
@@ -127,7 +142,7 @@ def remark_on_step(name: str, section: TimeHistorySection, built: TimeHistory, s
             site.warn("motion-step", f"{words}: impacts within it come late; use step: {least:.4g}")
 
 
-def remark_on_duration(name: str, built: TimeHistory, site: LoadSite) -> None:
+def _remark_on_duration(name: str, built: TimeHistory, site: LoadSite) -> None:
     """Records that end before the time history does, or after it."""
     files = [each for each in built.drivers if each.source]
     ends = max(float(each.signal.times[-1]) for each in built.drivers)
@@ -138,3 +153,13 @@ def remark_on_duration(name: str, built: TimeHistory, site: LoadSite) -> None:
     elif files and left > ROUNDING * ends:
         words = f"{name}: the motion ends at {ends:.4g} s: in the last {left:.4g} s the structure moves freely"
         site.selection.remark(Notice("notice", "motion-ends", words))
+
+
+def _remark_on_states(name: str, section: TimeHistorySection, built: TimeHistory, site: LoadSite) -> None:
+    """States that are to be kept more often than there are steps."""
+    every = section.record.every
+    if every is not None and every < built.step * (1.0 - ROUNDING):
+        words = (
+            f"{name}: record.every {every:g} s is below the step of {built.step:g} s: one state is kept for each step"
+        )
+        site.selection.remark(Notice("notice", "record-every", words))

@@ -282,3 +282,12 @@ def test_a_header_with_another_unit(tmp_path: Path) -> None:
 def test_points_outside_of_blocks_are_remarked_on(tmp_path: Path) -> None:
     found = model(tmp_path, f"motion: {SINE}, record: {{points: {{far: {{on: base, at: [0, 0, 9]}}}}}}")
     assert remarks(found) == [("warning", "recorded-point-outside")]
+
+
+def test_what_has_no_effect_is_told(tmp_path: Path) -> None:
+    often = model(tmp_path, f"motion: {SINE}, step: 0.002, record: {{every: 0.001}}")
+    assert remarks(often) == [("notice", "record-every")]
+    assert remarks(model(tmp_path, f"motion: {SINE}, step: 0.002, record: {{every: 0.002}}")) == []
+    nothing = model(tmp_path, f"motion: {SINE[:-1]}, scale: 0}}")
+    assert remarks(nothing) == [("notice", "motion-scale")]
+    assert nothing.notices[0].message.endswith("its scale is 0, so that nothing of it acts")
