@@ -91,7 +91,7 @@ class TimeHistorySection(Section):
         "macro-blocks of an earlier result, or an engineer's eye",
     )
     check: Switch = Field(
-        False, description="follow it once more with half of the step: how far the peaks differ is their error"
+        False, description="follow it once more with half of the step, and tell how much the peak depends on it"
     )
 
 
