@@ -62,7 +62,10 @@ RESULT.fields(
         "of joints across and along, force per volume, mean; nan: not known", "spring", unit="bedding", rule="open"
     ),
     period=Field("first period of the joints that press at rest; nan: not needed", unit="time", rule="open"),
-    damping=Field("share of critical damping at it: what is asked and that of the step, without contact_damping; nan: not known", rule="open"),
+    damping=Field(
+        "share of critical damping at it: what is asked and that of the step, without contact_damping; nan: not known",
+        rule="open",
+    ),
     searches=Field("searches for contacts"),
     seconds=Field("time that it took", unit="time", unverified="times"),
 )
