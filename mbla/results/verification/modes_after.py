@@ -46,4 +46,4 @@ def lacks_modes_after(deck: Deck, assembly: Assembly, case: CaseResult) -> bool:
 
 def _asked(case: CaseResult) -> bool:
     asked = case.load_case.modes > 0 and case.load_case.time_history is not None
-    return asked and case.solution.status in WITH_VALUE
+    return asked and case.status in WITH_VALUE
