@@ -98,7 +98,7 @@ def _resultants(
     contacts: Contacts, owner: IntArray, local: FloatArray, forces: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
     """Normal force of each surface, (n,), and its eccentricity, (n, 2) m; nan of those without a force."""
-    total = np.bincount(owner, forces, contacts.n_surfaces)
+    total: FloatArray = np.bincount(owner, forces, contacts.n_surfaces).astype(np.float64)
     firsts = np.column_stack([np.bincount(owner, forces * each, contacts.n_surfaces) for each in local.T])
     return total, firsts / np.where(total > 0.0, total, np.nan)[:, None]
 

@@ -30,18 +30,18 @@ def at_rest(
     joints = MovedJoints.at_pose(structure, pose, none, ties.broken(structure.model.ties), ratio)
     slips = np.zeros((joints.components - 1, joints.n_points))
     values, there = np.zeros((joints.components, joints.n_points)), joints.there(pose, 0.0)
-    wanted, spent = joints.prestress if prestressed else np.zeros(joints.n_points), 0
-    values[0] = wanted
-    for _ in range(FITTED):
+    wanted, spent, fitted = joints.prestress if prestressed else np.zeros(joints.n_points), 0, 0
+    values[0], holds = wanted, wanted != 0.0
+    while True:
         step = PoseStep(joints, History(values, slips), there, 0.0, 0.0, driven=settles)
         found = solved(step)
-        spent += step.spent
+        spent, fitted = spent + step.spent, fitted + 1
         if found is None or not found.solved:
             return None, spent
-        carried = np.where(wanted != 0.0, found.forces.normal, 1.0)
-        if float(np.abs(carried - wanted)[wanted != 0.0].max(initial=0.0)) <= LEFT * float(np.abs(wanted).max()):
+        left = np.abs(found.forces.normal - wanted)[holds]
+        if fitted == FITTED or not (left > LEFT * np.abs(wanted[holds])).any():
             break
-        values[0] *= np.where(wanted != 0.0, wanted / carried, 1.0)  # of what joints give as ties are stretched
+        values[0, holds] *= wanted[holds] / found.forces.normal[holds]  # joints give as ties are stretched
     after, factor = step.after(found.at, found.forces.normal), joints.full.scaling.load_factor(found.factor)
     twists = np.zeros((len(none), 6))
     return PushedPlace(found.at, joints, after, None, factor, twists, 0.0, ties, Energy()), spent

@@ -71,11 +71,17 @@ def modes_blocks(assembly: Assembly, case: CaseResult) -> list[Block]:
         )
     ]
     head = ["mode", "period [s]", "frequency [Hz]", "mass x", "mass y", "mass z", "sum x", "sum y", "sum z"]
+<<<<<<< HEAD
     found = [
         Paragraph(says),
         *_beside(case.load_case.time_history),
         *apart(table_of(head, rows, left=0, total=len(modes))),
     ]
+=======
+    followed = case.load_case.time_history is not None and case.solution.further.time_history.rows is not None
+    beside = [Paragraph(AT_POINTS)] if followed else []
+    found = [Paragraph(says), *beside, *apart(table_of(head, rows, left=0, total=len(modes)))]
+>>>>>>> 9736f840 (Words on the first period in time stand beside modes only where the time history was followed)
     return [*found, *_after_blocks(case)]
 
 
