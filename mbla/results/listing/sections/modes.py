@@ -5,7 +5,6 @@ from __future__ import annotations
 import numpy as np
 
 from mbla.assembly.assembly import Assembly
-from mbla.model.motion.time_history import TimeHistory
 from mbla.results.listing.blocks import GAP, MOST_ROWS, Block, Paragraph, apart, table_of
 from mbla.results.listing.text import counted, number
 from mbla.results.results import CaseResult
@@ -71,23 +70,15 @@ def modes_blocks(assembly: Assembly, case: CaseResult) -> list[Block]:
         )
     ]
     head = ["mode", "period [s]", "frequency [Hz]", "mass x", "mass y", "mass z", "sum x", "sum y", "sum z"]
-<<<<<<< HEAD
-    found = [
-        Paragraph(says),
-        *_beside(case.load_case.time_history),
-        *apart(table_of(head, rows, left=0, total=len(modes))),
-    ]
-=======
-    followed = case.load_case.time_history is not None and case.solution.further.time_history.rows is not None
-    beside = [Paragraph(AT_POINTS)] if followed else []
+    beside = _beside(case)
     found = [Paragraph(says), *beside, *apart(table_of(head, rows, left=0, total=len(modes)))]
->>>>>>> 9736f840 (Words on the first period in time stand beside modes only where the time history was followed)
     return [*found, *_after_blocks(case)]
 
 
-def _beside(history: TimeHistory | None) -> list[Block]:
-    """How modes differ from the time history that they are beside."""
-    if history is None:
+def _beside(case: CaseResult) -> list[Block]:
+    """How modes differ from the time history that they are beside, where there is one."""
+    history = case.load_case.time_history
+    if history is None or case.solution.further.time_history.rows is None:
         return []
     return [Paragraph(AT_POINTS), *([Paragraph(NOT_TOGETHER)] if history.rigid else [])]
 
