@@ -12,8 +12,9 @@ from mbla.solution.pushover.pose.pose_step import PoseStep
 from mbla.solution.pushover.pose.solved_step import solved
 from mbla.solution.pushover.pose.structure import PushedStructure
 
-FITTED, LEFT = 30, 1e-9
-"""Times at most that ties are stretched anew until each carries its prestress at rest, and what may be left of that."""
+FITTED, LEFT, MORE = 60, 1e-6, 2.0
+"""Times at most that ties are stretched anew until each carries its prestress at rest, what may be left of that, and
+what they are stretched by at once, relative."""
 
 
 def at_rest(
@@ -30,18 +31,21 @@ def at_rest(
     joints = MovedJoints.at_pose(structure, pose, none, ties.broken(structure.model.ties), ratio)
     slips = np.zeros((joints.components - 1, joints.n_points))
     values, there = np.zeros((joints.components, joints.n_points)), joints.there(pose, 0.0)
-    wanted, spent, fitted = joints.prestress if prestressed else np.zeros(joints.n_points), 0, 0
+    wanted, spent = joints.prestress if prestressed else np.zeros(joints.n_points), 0
     values[0], holds = wanted, wanted != 0.0
-    while True:
+    for _ in range(FITTED):
         step = PoseStep(joints, History(values, slips), there, 0.0, 0.0, driven=settles)
         found = solved(step)
-        spent, fitted = spent + step.spent, fitted + 1
+        spent += step.spent
         if found is None or not found.solved:
             return None, spent
-        left = np.abs(found.forces.normal - wanted)[holds]
-        if fitted == FITTED or not (left > LEFT * np.abs(wanted[holds])).any():
+        carried = found.forces.normal[holds]
+        if not (np.abs(carried - wanted[holds]) > LEFT * np.abs(wanted[holds])).any():
             break
-        values[0, holds] *= wanted[holds] / found.forces.normal[holds]  # joints give as ties are stretched
+        share = np.divide(wanted[holds], carried, out=np.full(len(carried), MORE), where=carried > 0.0)
+        values[0, holds] *= np.minimum(share, MORE)  # joints give as ties are stretched
+    else:
+        return None, spent
     after, factor = step.after(found.at, found.forces.normal), joints.full.scaling.load_factor(found.factor)
     twists = np.zeros((len(none), 6))
     return PushedPlace(found.at, joints, after, None, factor, twists, 0.0, ties, Energy()), spent
