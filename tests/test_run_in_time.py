@@ -160,6 +160,7 @@ output: {vtu: false}
 """
 
 
+@pytest.mark.long
 def test_soil_falls_as_a_whole(tmp_path: Path) -> None:
     """By half of its height, not of a cell's: these are lower than it by far."""
     results, folder = run_of(tmp_path, SLOPE)

@@ -111,6 +111,7 @@ def test_a_pushover_as_it_was_made_is_agreed_with(rocks: Results, tmp_path: Path
     assert said_of(tmp_path, forged(rocks, lambda rows: rows)) == ""
 
 
+@pytest.mark.every(2)
 @pytest.mark.parametrize(
     ("change", "says"),
     [
@@ -146,6 +147,7 @@ def test_frames_of_points_that_are_not_orthonormal(rocks: Results, tmp_path: Pat
     assert "step 1 of the pushover has contact points whose frames are not of unit vectors" in said_of(tmp_path, file)
 
 
+@pytest.mark.every(2)
 @pytest.mark.parametrize(
     ("name", "value", "says"),
     [
@@ -257,6 +259,7 @@ def test_a_history_with_balance_kept_is_found_by_following_the_pushover_anew_alo
     assert "load factors of the file are up to 50 % off" in says
 
 
+@pytest.mark.every(2)
 @pytest.mark.parametrize(
     ("changes", "what"),
     [

@@ -55,6 +55,7 @@ LONG = (
     "benchmarks/closed_forms/wall_20x20",
     "benchmarks/experiments/prestwood",
     "benchmarks/experiments/walls_sw",
+    "benchmarks/experiments/walls_ws",
     "benchmarks/published/cocchetti_rizzi_mu_310_falls",
     "benchmarks/published/cocchetti_rizzi_mu_310_stands",
     "benchmarks/published/cocchetti_rizzi_mu_350_falls",
@@ -117,7 +118,7 @@ LONG = (
     "tutorials/walls_at_a_corner",
 )  # fmt: skip
 """take long, or show once more what another shows: run by ``pytest -m long`` only, as the folder of regressions is"""
-EACH = 5
+EACH = 8
 """of the other benchmarks, most of whose closed forms ``tests/analytic`` holds, each of so many is short"""
 
 

@@ -45,6 +45,7 @@ def plain(values: Any) -> Any:
     return np.char.decode(array, "utf-8") if array.dtype.kind == "S" else array
 
 
+@pytest.mark.long
 def test_every_group_opens_with_named_dimensions_units_and_values(path: Path) -> None:
     fields = dict(fields_of(case.name for case in full_results().model.load_cases))
     seen = 0

@@ -251,6 +251,7 @@ def test_the_base_does_no_more_in_a_step_than_what_moves_can_take(rocks: Shaken)
     assert any("the base does more in a step" in failure for failure in failures)
 
 
+@pytest.mark.every(2)
 @pytest.mark.parametrize("what", FORGED)
 def test_what_is_forged_is_named(rocks: Shaken, what: str) -> None:
     change, identifier = FORGED[what]
