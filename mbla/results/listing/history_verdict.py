@@ -11,6 +11,7 @@ from mbla.results.listing.text import counted
 from mbla.results.results import CaseResult
 from mbla.solution.pushover.followed import STEP_DEPENDENCE
 from mbla.solution.solution import Status
+from mbla.solution.time_history.judged import CUT_SHORT
 from mbla.solution.time_history.step_rows import HistoryEnd
 from mbla.solution.time_history.still_moves import still_moves
 
@@ -20,8 +21,6 @@ BOTH = 1.0 / 3.0
 """of the greater of opening and slip, from which the lesser is said as well"""
 UNSURE = 0.01
 """of the peak, above which the uncertainty of what stays is said"""
-CUT_SHORT = HistoryEnd.LATE, HistoryEnd.STOPPED
-"""ends at which nothing is known of what stays"""
 COMES_BACK = 0.5
 """of the peak, up to which what stays is said as what it comes back to"""
 AT_REST = "the state at rest is not confirmed, and was not followed"

@@ -16,6 +16,7 @@ from mbla.solution.modes.checked import modes_remarks, modes_wrong
 from mbla.solution.modes.find import modes_of
 from mbla.solution.modes.modes import Modes
 from mbla.solution.time_history.history import TimeHistoryResult
+from mbla.solution.time_history.judged import CUT_SHORT
 from mbla.solution.time_history.step_rows import HistoryEnd
 from mbla.solution.time_history.still_moves import FAR, still_moves
 from mbla.solution.verification.modes import checked_modes
@@ -51,7 +52,7 @@ def left_by(
 ) -> StructureAt | str:
     """The structure where its time history has left it, or why no modes are sought there, in words."""
     model, asked, peaks = assembly.model.of_case(load_case), load_case.time_history, history.peaks
-    if asked is None or peaks is None or history.end in (HistoryEnd.LATE, HistoryEnd.STOPPED):
+    if asked is None or peaks is None or history.end in CUT_SHORT:
         return TO_NO_END
     if history.end is HistoryEnd.COLLAPSE or peaks.first_to_fall >= 0:
         return HAS_FALLEN

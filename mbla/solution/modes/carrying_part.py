@@ -15,7 +15,7 @@ import numpy as np
 from scipy.spatial import ConvexHull
 
 from mbla.arrays import FloatArray
-from mbla.solution.modes.polygons import clipped, moments_of
+from mbla.solution.modes.polygons import clipped, moments_of, products_of
 
 EXACT, CARRIED = 1e-12, 1e-7
 """What springs leave of a force and its moments over the size of the surface, and what they may, relative."""
@@ -53,10 +53,7 @@ def carrying_part(polygon: FloatArray, eccentricity: FloatArray, edge: float) ->
 
 def _seconds(polygon: FloatArray) -> FloatArray:
     """∫ (1, y_1, y_2)ᵀ(1, y_1, y_2) dA, (3, 3)."""
-    if not len(polygon):
-        return np.zeros((3, 3))
-    area, s1, s2, i11, i12, i22 = moments_of(polygon, np.array([0, len(polygon)]))[0]
-    return np.array([[area, s1, s2], [s1, i11, i12], [s2, i12, i22]])
+    return products_of(moments_of(polygon, np.array([0, len(polygon)])))[0] if len(polygon) else np.zeros((3, 3))
 
 
 def _energy(polygon: FloatArray, corners: FloatArray, plane: FloatArray, wanted: FloatArray) -> float:

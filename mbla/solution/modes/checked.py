@@ -14,7 +14,6 @@ from mbla.solution.verification.modes import checked_modes
 SOFT = 1e-3
 """Sag over the mean size of blocks from which joints are told to be soft."""
 
-
 ROUNDING = 1e-9
 """Share of an area that is none."""
 

@@ -59,3 +59,8 @@ def moments_of(corners: FloatArray, start: IntArray) -> FloatArray:
     middle = powers(here) + powers(there) + powers(here + there)
     middle[:, 0], middle[:, 1:3] = 12.0, 2.0 * middle[:, 1:3]
     return row_sums(twice[:, None] / 24.0 * middle, start)
+
+
+def products_of(moments: FloatArray) -> FloatArray:
+    """∫ (1, y_1, y_2)ᵀ(1, y_1, y_2) dA, (n, 3, 3), by moments (n, 6)."""
+    return np.asarray(moments[:, [[0, 1, 2], [1, 3, 4], [2, 4, 5]]])

@@ -23,7 +23,7 @@ import numpy as np
 from mbla.arrays import FloatArray, IntArray, starts, summed
 from mbla.contacts.contacts import Contacts
 from mbla.solution.modes.carrying_part import carrying_part
-from mbla.solution.modes.polygons import clipped, lifted, moments_of, powers
+from mbla.solution.modes.polygons import clipped, lifted, moments_of, powers, products_of
 from mbla.solution.modes.rest import Rest
 
 TOUCHES = 1e-6
@@ -107,10 +107,8 @@ def _uncracked(
     outlines: FloatArray, start: IntArray, moments: FloatArray, force: FloatArray, arms: FloatArray
 ) -> FloatArray:
     """Stress of surfaces that press as a whole, at the corners of their outlines, (n_corners,); −inf of no force."""
-    area, s1, s2, i11, i12, i22 = moments.T
-    matrices = np.array([[area, s1, s2], [s1, i11, i12], [s2, i12, i22]]).transpose(2, 0, 1)
     right = np.column_stack([np.ones(len(force)), np.nan_to_num(arms)])
-    planes = np.linalg.solve(matrices, right[:, :, None])[:, :, 0] * force[:, None]
+    planes = np.linalg.solve(products_of(moments), right[:, :, None])[:, :, 0] * force[:, None]
     planes[~(force > 0.0)] = -np.inf, 0.0, 0.0
     of_corner = planes[np.repeat(np.arange(len(force)), np.diff(start))]
     return np.asarray(of_corner[:, 0] + (of_corner[:, 1:] * outlines).sum(axis=1))

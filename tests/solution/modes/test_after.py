@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -51,7 +52,7 @@ def structure(folder: Path, others: str = "") -> tuple[Deck, Assembly, LoadCase]
     return deck, build_assembly(deck, model), model.load_cases[0]
 
 
-def left(shift: FloatArray, turn: FloatArray | None = None, **changed: object) -> TimeHistoryResult:
+def left(shift: FloatArray, turn: FloatArray | None = None, **changed: Any) -> TimeHistoryResult:
     """What ends with the upper stone displaced and turned so."""
     ends = np.zeros((2, 6))
     ends[1, :3] = shift
@@ -59,7 +60,7 @@ def left(shift: FloatArray, turn: FloatArray | None = None, **changed: object) -
         ends[1, 3:] = turn
     none = np.zeros(2)
     peaks = Peaks(none, none, none, none, ends, none, np.zeros(1), np.zeros(1), np.full(2, np.nan))
-    return replace(TimeHistoryResult(HistoryEnd.DURATION, SAG, peaks=peaks), **changed)  # type: ignore[arg-type]
+    return replace(TimeHistoryResult(HistoryEnd.DURATION, SAG, peaks=peaks), **changed)
 
 
 def found(folder: Path, history: TimeHistoryResult, others: str = "") -> tuple[Modes, list[str]]:

@@ -279,16 +279,6 @@ class MovedJoints:
             forces[len(self.areas) :, 0] = self.contacts.ties.senses * self.structure.model.ties.prestress[self.ties]
         return np.asarray(self.values(forces)[0])
 
-    def yielded(self, free: FloatArray) -> FloatArray:
-        """Length that ties have got longer by, or shorter, at their capacity, (n_ties,) of those that are left, m.
-
-        free : (n_points,) normal force at no gap: what a tie has yielded takes off its prestress
-        """
-        n = len(self.areas)
-        none = np.zeros((self.components - 1, self.n_points))
-        lost = self.forces(np.vstack([(self.prestress - free)[None], none]))[n:, 0]
-        return np.asarray(lost / (self.structure.stiffness * self.full.facts.areas[n:]))
-
     def values(self, forces: FloatArray) -> FloatArray:
         """The way back, (components, n_points)."""
         scaled = forces.ravel() / self.full.scaling.force

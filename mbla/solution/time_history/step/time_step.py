@@ -25,7 +25,7 @@ from mbla.solution.law.masses import Masses
 from mbla.solution.law.return_map import JointForces
 from mbla.solution.linear_algebra.stiffness import Entries
 from mbla.solution.pushover.place import Energy, PushedPlace, ties_after
-from mbla.solution.pushover.pose.moved_joints import History
+from mbla.solution.pushover.pose.moved_joints import History, MovedJoints
 from mbla.solution.time_history.step.energies import Energies, powers
 from mbla.solution.time_history.step.joints_in_step import JointsInStep
 from mbla.solution.time_history.step.moving_bodies import MovingBodies
@@ -191,5 +191,15 @@ def _ties(state: TimeState, pose: Pose, twists: FloatArray, free: FloatArray) ->
     history = History(np.vstack([state.free[None], state.shear]), state.at.offsets[1:])
     place = PushedPlace(state.at, joints, history, None, 0.0, twists, 0.0, state.ties, Energy())
     yielded = state.ties.yielded.copy()
-    yielded[joints.ties] = np.maximum(yielded[joints.ties], joints.yielded(free))
+    yielded[joints.ties] = np.maximum(yielded[joints.ties], _yielded(joints, free))
     return replace(ties_after(place, pose, twists), yielded=yielded)
+
+
+def _yielded(joints: MovedJoints, free: FloatArray) -> FloatArray:
+    """Length that ties have got longer by, or shorter, at their capacity, (n_ties,) of those that are left, m.
+
+    free : (n_points,) normal force at no gap: what a tie has yielded takes off its prestress
+    """
+    n, none = len(joints.areas), np.zeros((joints.components - 1, joints.n_points))
+    lost = joints.forces(np.vstack([(joints.prestress - free)[None], none]))[n:, 0]
+    return np.asarray(lost / (joints.structure.stiffness * joints.full.facts.areas[n:]))
